@@ -4,6 +4,7 @@
 
 #include <vtkSmartPointer.h>
 
+#include <cstdint>
 #include <vector>
 
 class vtkDataObject;
@@ -37,8 +38,8 @@ vtkSmartPointer<vtkDataObject> JoinShares(
 /// @return LibraryError: VTK cannot take it apart.
 Result<std::vector<vtkSmartPointer<vtkDataObject>>> CollectPieces(vtkDataObject* output);
 
-/// What processes have made, one after the other in the first of them; null elsewhere. Points are
-/// not united. Collections get the blocks that each has.
+/// What processes have made, one after the other in the first of them; elsewhere what the process
+/// has made itself. Points are not united. Collections get the blocks that each has.
 /// @pre all processes call it.
 /// @return LibraryError: VTK cannot take it apart.
 Result<vtkSmartPointer<vtkDataObject>> AppendShares(vtkDataObject* output);
@@ -48,6 +49,9 @@ Result<vtkSmartPointer<vtkDataObject>> AppendShares(vtkDataObject* output);
 /// @pre all processes call it.
 /// @return LibraryError: VTK cannot take it apart.
 Result<vtkSmartPointer<vtkDataObject>> UniteTessellation(vtkDataObject* output);
+
+/// Points of the whole that a part of a tessellation belongs to.
+std::int64_t NumberOfTessellationPoints(vtkDataObject* part);
 
 /// What one process has, to all.
 /// @pre all processes call it.

@@ -14,17 +14,12 @@
 #include <knotwork/SplineIO/vtkCADReader.h>
 
 #include <vtkCellType.h>
-#include <vtkDataSet.h>
-#include <vtkIdTypeArray.h>
+#include <vtkDataObject.h>
 #include <vtkNew.h>
 #include <vtkPartitionedDataSetCollection.h>
-#include <vtkPointData.h>
 #include <vtkUnstructuredGrid.h>
 
-#include <algorithm>
-#include <cstdint>
 #include <memory>
-#include <vector>
 
 namespace knotwork
 {
@@ -43,23 +38,6 @@ bool HasOnlyCurves(vtkDataObject* splines)
     }
   }
   return true;
-}
-
-/// Points of the parts of all processes, those with one global id once.
-std::int64_t NumberOfUnitedPoints(vtkDataObject* part)
-{
-  auto* ids =
-    vtkIdTypeArray::SafeDownCast(vtkDataSet::SafeDownCast(part)->GetPointData()->GetGlobalIds());
-  std::int64_t count = 0;
-  for (vtkIdType i = 0; ids && i < ids->GetNumberOfTuples(); ++i)
-  {
-    count = std::max<std::int64_t>(count, ids->GetValue(i) + 1);
-  }
-  for (const auto& one : Processes::Exchange(std::vector<std::int64_t>{ count }))
-  {
-    count = std::max(count, one.front());
-  }
-  return count;
 }
 
 struct TessellateJob
@@ -157,7 +135,7 @@ struct TessellateJob
     }
     vtkDataObject* result = this->Filter->GetOutputDataObject(0);
     session.Report["number_of_points"] = isByParts
-      ? NumberOfUnitedPoints(result)
+      ? NumberOfTessellationPoints(result)
       : Session::Total(result->GetNumberOfElements(vtkDataObject::POINT));
     session.Report["number_of_cells"] =
       Session::Total(result->GetNumberOfElements(vtkDataObject::CELL));
@@ -166,7 +144,8 @@ struct TessellateJob
       return session.Write(result, this->Output);
     }
     const auto whole = isByParts ? UniteTessellation(result) : AppendShares(result);
-    return whole ? session.Write(whole.Value, this->Output) : whole.Status;
+    const Status united = Processes::Agree(whole.Status);
+    return united ? session.Write(whole.Value, this->Output) : united;
   }
 };
 

@@ -4,12 +4,14 @@
 #include <knotwork/SplineGrid/Processes.h>
 #include <knotwork/SplineGrid/vtkSplineTessellate.h>
 
+#include <vtkAbstractArray.h>
 #include <vtkCellArray.h>
 #include <vtkCellData.h>
 #include <vtkFieldData.h>
 #include <vtkIdTypeArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
+#include <vtkPointSet.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkUnsignedCharArray.h>
@@ -17,9 +19,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <iterator>
-#include <string>
 #include <vector>
 
 namespace knotwork
@@ -41,14 +43,19 @@ vtkIdTypeArray* NumbersOf(vtkDataSet* piece)
   return vtkIdTypeArray::SafeDownCast(piece->GetPointData()->GetGlobalIds());
 }
 
+vtkIdTypeArray* CountsOf(vtkDataSet* piece)
+{
+  return vtkIdTypeArray::SafeDownCast(
+    piece->GetFieldData()->GetArray(vtkSplineTessellate::PointsByDimension()));
+}
+
 constexpr std::size_t NumDimensions = 3;
 using RunsByDimension = std::array<std::vector<CellRun>, NumDimensions>;
 
 /// Cells of curves, surfaces and solids, in order: each has points of its own.
 void AddRuns(vtkDataSet* piece, vtkCellArray* cells, vtkIdType firstData, RunsByDimension& runs)
 {
-  auto* counts = vtkIdTypeArray::SafeDownCast(
-    piece->GetFieldData()->GetArray(vtkSplineTessellate::PointsByDimension()));
+  auto* counts = CountsOf(piece);
   auto* numbers = NumbersOf(piece);
   for (vtkIdType cell = 0; cell < cells->GetNumberOfCells(); ++cell)
   {
@@ -99,16 +106,10 @@ vtkSmartPointer<vtkDataObject> UnitePieces(
   const std::vector<vtkSmartPointer<vtkDataObject>>& pieces)
 {
   std::vector<vtkDataSet*> sets;
-  vtkIdType numPoints = 0;
   RunsByDimension runs;
   for (const auto& piece : pieces)
   {
     sets.push_back(vtkDataSet::SafeDownCast(piece));
-    auto* ids = NumbersOf(sets.back());
-    for (vtkIdType i = 0; i < ids->GetNumberOfTuples(); ++i)
-    {
-      numPoints = std::max(numPoints, ids->GetValue(i) + 1);
-    }
     if (auto* polygons = vtkPolyData::SafeDownCast(piece))
     {
       AddRuns(polygons, polygons->GetLines(), 0, runs);
@@ -119,6 +120,7 @@ vtkSmartPointer<vtkDataObject> UnitePieces(
       AddRuns(sets.back(), vtkUnstructuredGrid::SafeDownCast(piece)->GetCells(), 0, runs);
     }
   }
+  const auto numPoints = static_cast<vtkIdType>(NumberOfTessellationPoints(sets.front()));
   // rows of points with following numbers at once
   const auto copyPoints = [&](vtkAbstractArray* to, const auto& arrayOf)
   {
@@ -145,6 +147,7 @@ vtkSmartPointer<vtkDataObject> UnitePieces(
     {
       numCells += run.Count;
       auto* ids = NumbersOf(run.Piece);
+      auto* grid = vtkUnstructuredGrid::SafeDownCast(run.Piece);
       std::vector<vtkIdType> corners;
       for (vtkIdType cell = run.First; cell < run.First + run.Count; ++cell)
       {
@@ -155,8 +158,10 @@ vtkSmartPointer<vtkDataObject> UnitePieces(
         std::transform(points, points + count, std::back_inserter(corners),
           [ids](vtkIdType point) { return ids->GetValue(point); });
         cells[d]->InsertNextCell(count, corners.data());
-        types->InsertNextValue(
-          static_cast<unsigned char>(run.Piece->GetCellType(run.FirstData + cell - run.First)));
+        if (grid)
+        {
+          types->InsertNextValue(static_cast<unsigned char>(grid->GetCellType(cell)));
+        }
       }
     }
   }
@@ -210,6 +215,12 @@ vtkSmartPointer<vtkDataObject> UnitePieces(
 }
 }
 
+std::int64_t NumberOfTessellationPoints(vtkDataObject* part)
+{
+  auto* counts = CountsOf(vtkDataSet::SafeDownCast(part));
+  return counts ? counts->GetValue(0) + counts->GetValue(1) + counts->GetValue(2) : 0;
+}
+
 Result<vtkSmartPointer<vtkDataObject>> UniteTessellation(vtkDataObject* output)
 {
   auto pieces = CollectPieces(output);
@@ -217,7 +228,12 @@ Result<vtkSmartPointer<vtkDataObject>> UniteTessellation(vtkDataObject* output)
   {
     return pieces.Status;
   }
-  return Processes::Own() != 0 || pieces.Value.empty() ? vtkSmartPointer<vtkDataObject>(output)
-                                                       : UnitePieces(pieces.Value);
+  if (Processes::Own() != 0 || pieces.Value.empty())
+  {
+    output->GetAttributes(vtkDataObject::POINT)->SetGlobalIds(nullptr);
+    output->GetFieldData()->RemoveArray(vtkSplineTessellate::PointsByDimension());
+    return vtkSmartPointer<vtkDataObject>(output);
+  }
+  return UnitePieces(pieces.Value);
 }
 }

@@ -27,7 +27,7 @@ Status DecodeCollection(
   {
     vtkPartitionedDataSet* block = collection->GetPartitionedDataSet(b);
     vtkIdType firstCell = 0;
-    std::set<int> usedIds;
+    PatchNumbers numbers;
     for (unsigned int i = 0; block && i < block->GetNumberOfPartitions(); ++i)
     {
       vtkDataSet* piece = block->GetPartition(i);
@@ -43,7 +43,7 @@ Status DecodeCollection(
         continue;
       }
       const Status status =
-        GridReader(grid, static_cast<int>(b), firstCell, usedIds, threads, model).Read();
+        GridReader(grid, static_cast<int>(b), firstCell, numbers, threads, model).Read();
       if (!status)
       {
         return { status.Code, where + ": " + status.Detail };
@@ -61,8 +61,8 @@ Result<SplineModel> DecodeSplineModel(vtkDataObject* data, int threads)
   Status status;
   if (auto* grid = vtkUnstructuredGrid::SafeDownCast(data))
   {
-    std::set<int> usedIds;
-    status = GridReader(grid, 0, 0, usedIds, threads, model).Read();
+    PatchNumbers numbers;
+    status = GridReader(grid, 0, 0, numbers, threads, model).Read();
   }
   else if (auto* collection = vtkPartitionedDataSetCollection::SafeDownCast(data))
   {

@@ -207,7 +207,7 @@ const PatchRecord* GridReader::FindRecord(const CellGroup& group) const
   return own ? own : at(this->RecordsByBasis, group.Basis);
 }
 
-/// A record of a basis with the control points of a grid, best that of a patch with a number.
+// A record of a basis with the control points of a grid, best that of a patch with a number.
 const PatchRecord* GridReader::FindCache(
   const Checksum& sum, const SpaceDefinition& basis, int numFunctions, int id) const
 {
@@ -228,7 +228,7 @@ const PatchRecord* GridReader::FindCache(
 
 int GridReader::TakeId(int wanted)
 {
-  if (this->UsedIds.insert(wanted).second)
+  if (this->Numbers.Used.insert(wanted).second)
   {
     return wanted;
   }
@@ -236,12 +236,12 @@ int GridReader::TakeId(int wanted)
   {
     this->GridIds.insert(this->PatchIds.begin(), this->PatchIds.end());
   }
-  while (this->UsedIds.count(this->NextId) > 0 || this->GridIds.count(this->NextId) > 0)
+  int& id = this->Numbers.Next;
+  while (this->Numbers.Used.count(id) > 0 || this->GridIds.count(id) > 0)
   {
-    ++this->NextId;
+    ++id;
   }
-  const int id = this->NextId;
-  this->UsedIds.insert(id);
+  this->Numbers.Used.insert(id);
   this->Warn(
     PatchName(wanted) + " occurs more than once; another one is now patch " + std::to_string(id));
   return id;

@@ -5,6 +5,8 @@
 #include "SplineSchema.h"
 #include "TopologyTable.h"
 
+#include <array>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <set>
@@ -44,13 +46,20 @@ struct PatchCells
   bool Weighted = false;         ///< whether a point has a weight that is not 1
 };
 
+/// Numbers of the patches of a block.
+struct PatchNumbers
+{
+  std::set<int> Used;
+  int Next = 0; ///< all before it are used
+};
+
 /// Reads the patches of one grid into a model.
 class GridReader
 {
 public:
-  GridReader(vtkUnstructuredGrid* grid, int block, vtkIdType firstCell, std::set<int>& usedIds,
+  GridReader(vtkUnstructuredGrid* grid, int block, vtkIdType firstCell, PatchNumbers& numbers,
     int threads, SplineModel& model)
-    : Grid(grid), Bezier(grid), Block(block), FirstCell(firstCell), UsedIds(usedIds),
+    : Grid(grid), Bezier(grid), Block(block), FirstCell(firstCell), Numbers(numbers),
       Threads(threads), Model(model)
   {
   }
@@ -102,7 +111,7 @@ private:
   BezierCells Bezier;
   int Block;
   vtkIdType FirstCell;
-  std::set<int>& UsedIds;
+  PatchNumbers& Numbers;
   int Threads;
   SplineModel& Model;
   SplineSchema Schema;
@@ -112,7 +121,6 @@ private:
   std::map<std::array<int, 2>, std::size_t> RecordsByBoth;
   std::multimap<std::uint64_t, std::size_t> Caches;
   std::set<int> GridIds; ///< numbers of patches of the grid, once one of them is changed
-  int NextId = 0;        ///< all before it are taken
   std::vector<int> PatchIds, ElementIds, Bases;
   std::vector<vtkDataArray*> Fields;
   std::map<int, std::pair<SpaceDefinition, AnySpace>> Spaces;

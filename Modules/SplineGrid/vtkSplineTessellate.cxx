@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "vtkSplineTessellate.h"
 
+#include "NamedArray.h"
 #include "ReferenceSystem.h"
 #include "SplineBlocks.h"
 #include "SplineModel.h"
@@ -24,11 +25,16 @@
 #include "vtkPoints.h"
 #include "vtkPolyData.h"
 #include "vtkUnsignedCharArray.h"
+#include "vtkUnstructuredGrid.h"
 
 #include <algorithm>
-#include <functional>
+#include <array>
 #include <map>
+#include <string>
+#include <variant>
+#include <vector>
 
+using knotwork::NamedArray;
 using knotwork::PointMatrix;
 using knotwork::SplinePatch;
 using knotwork::Status;
@@ -39,8 +45,9 @@ vtkStandardNewMacro(vtkSplineTessellate);
 
 namespace
 {
-/// Fills blocks of rows at once.
-void ForRows(std::size_t count, int threads, const std::function<void(std::size_t)>& fill)
+/// fill(row) of all rows, many rows at once.
+template <typename Fill>
+void ForRows(std::size_t count, int threads, const Fill& fill)
 {
   constexpr std::size_t rowsAtOnce = 65536;
   knotwork::ParallelFor(count, rowsAtOnce, threads,
@@ -51,16 +58,6 @@ void ForRows(std::size_t count, int threads, const std::function<void(std::size_
         fill(i);
       }
     });
-}
-
-template <typename Array>
-vtkSmartPointer<Array> NewArray(const char* name, int components, std::size_t rows)
-{
-  auto array = vtkSmartPointer<Array>::New();
-  array->SetName(name);
-  array->SetNumberOfComponents(components);
-  array->SetNumberOfTuples(static_cast<vtkIdType>(rows));
-  return array;
 }
 
 /// Meshes of a block's curves, surfaces and solids, one after the other: what becomes arrays of VTK
@@ -75,15 +72,15 @@ public:
   {
     this->Parts.push_back(
       { std::move(mesh), std::move(patches), dimension, this->NumPoints, this->NumCells });
-    this->NumPoints += this->Parts.back().Mesh.PointPatch.size();
-    this->NumCells += this->Parts.back().Mesh.Shapes.size();
+    this->NumPoints += static_cast<vtkIdType>(this->Parts.back().Mesh.PointPatch.size());
+    this->NumCells += static_cast<vtkIdType>(this->Parts.back().Mesh.Shapes.size());
     this->Bound = std::max(this->Bound, this->Parts.back().Mesh.Bound);
   }
 
   /// Rows of a matrix of each mesh, zeros beyond its columns.
   vtkSmartPointer<vtkDoubleArray> Take(const char* name, PointMatrix TessellationMesh::*values)
   {
-    auto array = NewArray<vtkDoubleArray>(name, 3, this->NumPoints);
+    auto array = NamedArray<vtkDoubleArray>(name, 3, this->NumPoints);
     for (Part& part : this->Parts)
     {
       PointMatrix rows = std::move(part.Mesh.*values);
@@ -105,7 +102,7 @@ public:
   bool HasNormals() const
   {
     return std::any_of(this->Parts.begin(), this->Parts.end(),
-      [](const Part& part) { return part.Mesh.Normals.rows() > 0; });
+      [](const Part& part) { return part.Mesh.HasNormals; });
   }
 
   /// Lines, or all other cells, or all.
@@ -119,8 +116,8 @@ public:
       numCells += isWanted(part) ? part.Mesh.Shapes.size() : 0;
       numCorners += isWanted(part) ? part.Mesh.Connectivity.size() : 0;
     }
-    auto offsets = NewArray<vtkIdTypeArray>(nullptr, 1, numCells + 1);
-    auto corners = NewArray<vtkIdTypeArray>(nullptr, 1, numCorners);
+    auto offsets = NamedArray<vtkIdTypeArray>(nullptr, 1, numCells + 1);
+    auto corners = NamedArray<vtkIdTypeArray>(nullptr, 1, numCorners);
     offsets->SetValue(0, 0);
     vtkIdType* nextOffset = offsets->GetPointer(1);
     vtkIdType* nextCorner = corners->GetPointer(0);
@@ -148,7 +145,7 @@ public:
 
   vtkSmartPointer<vtkUnsignedCharArray> Types() const
   {
-    auto types = NewArray<vtkUnsignedCharArray>(nullptr, 1, this->NumCells);
+    auto types = NamedArray<vtkUnsignedCharArray>(nullptr, 1, this->NumCells);
     this->ForCells([&](const Part& part, std::size_t c, std::size_t cell)
       { types->SetValue(static_cast<vtkIdType>(cell), TypeOf(part.Mesh.Shapes[c])); });
     return types;
@@ -179,7 +176,7 @@ public:
   /// Of the points of parts, among those of all parts.
   vtkSmartPointer<vtkIdTypeArray> PointNumbers() const
   {
-    auto numbers = NewArray<vtkIdTypeArray>("GlobalPointIds", 1, this->NumPoints);
+    auto numbers = NamedArray<vtkIdTypeArray>("GlobalPointIds", 1, this->NumPoints);
     vtkIdType before = 0; // points of all parts of meshes before
     vtkIdType row = 0;
     for (const Part& part : this->Parts)
@@ -200,7 +197,7 @@ public:
 
   vtkSmartPointer<vtkIdTypeArray> PointsByDimension() const
   {
-    auto counts = NewArray<vtkIdTypeArray>(vtkSplineTessellate::PointsByDimension(), 1, 3);
+    auto counts = NamedArray<vtkIdTypeArray>(vtkSplineTessellate::PointsByDimension(), 1, 3);
     counts->Fill(0.0);
     for (const Part& part : this->Parts)
     {
@@ -209,27 +206,28 @@ public:
     return counts;
   }
 
-  /// Points of patches, by patch.
-  std::map<std::size_t, std::vector<vtkIdType>> PointsWhere(
-    const std::function<bool(std::size_t)>& isWanted) const
+  /// Points of patches that are wanted, by patch.
+  std::vector<std::vector<vtkIdType>> PointsOf(const std::vector<bool>& isWanted) const
   {
-    std::map<std::size_t, std::vector<vtkIdType>> points;
+    std::vector<std::vector<vtkIdType>> points(isWanted.size());
     for (const Part& part : this->Parts)
     {
-      for (std::size_t i = 0; i < part.Mesh.PointPatch.size(); ++i)
+      vtkIdType point = part.FirstPoint;
+      for (const int own : part.Mesh.PointPatch)
       {
-        const std::size_t patch = part.PatchOf(part.Mesh.PointPatch[i]);
-        if (isWanted(patch))
+        const std::size_t patch = part.PatchOf(own);
+        if (isWanted[patch])
         {
-          points[patch].push_back(static_cast<vtkIdType>(part.FirstPoint + i));
+          points[patch].push_back(point);
         }
+        ++point;
       }
     }
     return points;
   }
 
-  std::size_t NumPoints = 0;
-  std::size_t NumCells = 0;
+  vtkIdType NumPoints = 0;
+  vtkIdType NumCells = 0;
   double Bound = 0.0;
   int Threads;
 
@@ -239,8 +237,8 @@ private:
     TessellationMesh Mesh;
     std::vector<int> Patches;
     int Dimension;
-    std::size_t FirstPoint;
-    std::size_t FirstCell;
+    vtkIdType FirstPoint;
+    vtkIdType FirstCell;
 
     std::size_t PatchOf(int patch) const
     {
@@ -314,7 +312,7 @@ void SetCellData(const BlockMesh& block, const std::vector<const SplinePatch*>& 
   const std::array<const char*, 3> names{ "PatchId", "ElementId", "Level" };
   for (std::size_t i = 0; i < ids.size(); ++i)
   {
-    ids[i] = NewArray<vtkIntArray>(names[i], 1, block.NumCells);
+    ids[i] = NamedArray<vtkIntArray>(names[i], 1, block.NumCells);
     output->GetCellData()->AddArray(ids[i]);
   }
   std::vector<vtkIdType> sourceCells(source ? block.NumCells : 0);
@@ -351,7 +349,7 @@ struct PointPlaces
 template <int Dim>
 Status EvaluateFields(const PointPlaces& places, const SplinePatch& patch,
   const std::vector<vtkIdType>& points, const knotwork::Spline<Dim>& geometry, int threads,
-  std::map<std::string, vtkSmartPointer<vtkDoubleArray>>& fields)
+  const std::map<std::string, vtkSmartPointer<vtkDoubleArray>>& fields)
 {
   std::vector<int> elements;
   PointMatrix local(static_cast<Eigen::Index>(points.size()), Dim);
@@ -368,13 +366,7 @@ Status EvaluateFields(const PointPlaces& places, const SplinePatch& patch,
   for (const knotwork::SplineField& field : patch.Fields)
   {
     const auto components = static_cast<int>(field.Coefficients.cols());
-    auto& values = fields[field.Name];
-    if (!values)
-    {
-      values = NewArray<vtkDoubleArray>(field.Name.c_str(), components,
-        static_cast<std::size_t>(places.Elements->GetNumberOfTuples()));
-      values->Fill(0.0);
-    }
+    vtkDoubleArray* values = fields.at(field.Name);
     if (values->GetNumberOfComponents() != components)
     {
       continue; // a field of this name has other components on another patch
@@ -402,8 +394,8 @@ Status EvaluateFields(const PointPlaces& places, const SplinePatch& patch,
 Status SetPointData(
   BlockMesh& block, const std::vector<const SplinePatch*>& patches, vtkDataSet* output)
 {
-  const auto patchId = NewArray<vtkIntArray>("PatchId", 1, block.NumPoints);
-  const PointPlaces places{ NewArray<vtkIntArray>("ElementId", 1, block.NumPoints),
+  const auto patchId = NamedArray<vtkIntArray>("PatchId", 1, block.NumPoints);
+  const PointPlaces places{ NamedArray<vtkIntArray>("ElementId", 1, block.NumPoints),
     block.Take("LocalParameters", &TessellationMesh::PointLocal) };
   block.ForPointElements(
     [&](std::size_t patch, int element, std::size_t point)
@@ -412,14 +404,29 @@ Status SetPointData(
       places.Elements->SetValue(static_cast<vtkIdType>(point), element);
     });
 
+  // every part has the arrays of all, though patches with them may have no point in it
   std::map<std::string, vtkSmartPointer<vtkDoubleArray>> fields;
-  for (const auto& [patch, points] :
-    block.PointsWhere([&](std::size_t patch) { return !patches[patch]->Fields.empty(); }))
+  std::vector<bool> hasFields;
+  for (const SplinePatch* patch : patches)
   {
-    const SplinePatch& source = *patches[patch];
-    const Status status = std::visit([&, &points = points](const auto& geometry)
-      { return EvaluateFields(places, source, points, geometry, block.Threads, fields); },
-      source.Geometry);
+    hasFields.push_back(!patch->Fields.empty());
+    for (const knotwork::SplineField& field : patch->Fields)
+    {
+      auto& values = fields[field.Name];
+      if (!values)
+      {
+        values = NamedArray<vtkDoubleArray>(
+          field.Name.c_str(), static_cast<int>(field.Coefficients.cols()), block.NumPoints);
+        values->Fill(0.0);
+      }
+    }
+  }
+  const auto points = block.PointsOf(hasFields);
+  for (std::size_t p = 0; p < patches.size(); ++p)
+  {
+    const Status status = std::visit([&](const auto& geometry)
+      { return EvaluateFields(places, *patches[p], points[p], geometry, block.Threads, fields); },
+      patches[p]->Geometry);
     if (!status)
     {
       return status;

@@ -123,7 +123,7 @@ def jobs(program, folder):
     return (("`validate --injectivity off`", grid, lambda name, pieces: ["validate", name + (".pvtu" if pieces else ".vtu"), "--injectivity", "off", "--relative-gap",
                                                                           "0.01", "--bound-maximum"]),
             ("`tessellate --cells volume`", cells, lambda name, pieces: ["tessellate", name + ".vtu", "--cells", "volume", "--chordal-tolerance", "1e-12",
-                                                                         "--maximum-subdivision", "3", "--maximum-cells", "2000000000", "--output", "out.pvtu"]),
+                                                                         "--maximum-subdivision", "3", "--maximum-cells", "2000000000", "--output", "cells.pvtu"]),
             ("`evaluate --mode probe`", points, lambda name, pieces: ["evaluate", "surface.vtu", name + (".pvtp" if pieces else ".vtp"), "--mode", "probe",
                                                                       "--output", "out.pvtp"]),
             ("`distance --kind closest`", points, lambda name, pieces: ["distance", name + (".pvtp" if pieces else ".vtp"), "surface.vtu", "--kind", "closest",

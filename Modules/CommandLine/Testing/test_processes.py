@@ -355,7 +355,7 @@ def test_blocks():
 
 
 def mixed_grid():
-    """A curve, a surface and a solid in one grid."""
+    """A curve, a surface and a solid in one grid; the solid alone has a field that is not zero."""
     append = vtkAppendFilter()
     for i, shape in enumerate(("arc", "annulus-sector", "cube")):
         name = path(shape + ".vtu")
@@ -365,6 +365,9 @@ def mixed_grid():
         for array in ("PatchBasis", "ElementId"):
             grid.GetCellData().RemoveArray(array)
         grid.GetCellData().GetArray("PatchId").Fill(i)
+        heat = numpy_to_vtk(np.full(grid.GetNumberOfPoints(), 20.0 if shape == "cube" else 0.0), deep=True)
+        heat.SetName("Heat")
+        grid.GetPointData().AddArray(heat)
         append.AddInputData(grid)
     append.Update()
     return write(append.GetOutput(), path("mixed.vtu"))

@@ -173,7 +173,6 @@ std::vector<Face> MakeFaces(const std::vector<BezierForm<3>>& patches, int& numC
       }
     }
   }
-  numCharts *= 6;
   std::vector<char> isInner(faces.size(), 0);
   for (const PatchInterface& shared : matcher.Interfaces())
   {
@@ -280,75 +279,80 @@ ChartPoint PointOnSide(const Face& face, int side, std::int64_t position)
                              : ChartPoint{ face.Chart, { fixed, position, 0 } };
 }
 
-/// The vertices of one face: round its border first, then those within.
+/// Visits the vertices on the border of a face in the order of their numbers, side by side.
+/// @param visit  (side, position along it)
+template <typename Visit>
+void ForBorder(const Face& face, const LinePoints& lines, const Visit& visit)
+{
+  for (const int side : { 2, 1, 3, 0 })
+  {
+    // corners that sides before have
+    const std::size_t skipFirst = side == 1 || side == 0 ? 1 : 0;
+    const std::size_t skipLast = side == 3 || side == 0 ? 1 : 0;
+    const std::vector<std::int64_t> along = lines.Along(face, side);
+    for (std::size_t i = skipFirst; i + skipLast < along.size(); ++i)
+    {
+      visit(side, along[i]);
+    }
+  }
+}
+
+Pair PositionOnSide(const Face& face, int side, std::int64_t position)
+{
+  return SideAxis(side) == 0 ? Pair{ position, SideFixed(face, side) }
+                             : Pair{ SideFixed(face, side), position };
+}
+
+/// Cell along a side that a position lies in, and whether it lies between grid points.
+std::pair<std::int64_t, bool> CellAlong(const Face& face, int side, std::int64_t position)
+{
+  const auto axis = static_cast<std::size_t>(SideAxis(side));
+  const std::int64_t offset = position - face.Lower[axis];
+  const std::int64_t step = face.Size[axis] >> face.Halvings[axis];
+  return { offset / step, offset % step != 0 };
+}
+
+std::array<double, 3> LocalOf(const Face& face, const Pair& x)
+{
+  std::array<double, 3> local{};
+  if (face.Fixed >= 0)
+  {
+    local[At(face.Fixed)] = face.End;
+  }
+  for (std::size_t a = 0; a < 2; ++a)
+  {
+    local[At(face.Axes[a])] =
+      static_cast<double>(x[a] - face.Lower[a]) / static_cast<double>(face.Size[a]);
+  }
+  return local;
+}
+
+/// Cuts one face: its vertices are those of its border, those within, and the middles of cells with
+/// vertices on their sides.
 class FaceCutter
 {
 public:
-  FaceCutter(const Face& face, const LinePoints& lines) : F(face)
+  FaceCutter(const Face& face, const LinePoints& lines) : F(face), Lines(lines)
   {
     this->N = { std::int64_t{ 1 } << face.Halvings[0], std::int64_t{ 1 } << face.Halvings[1] };
     this->Step = { face.Size[0] >> face.Halvings[0], face.Size[1] >> face.Halvings[1] };
-    this->Grid.assign(At((this->N[0] + 1) * (this->N[1] + 1)), -1);
-    for (const int side : { 2, 1, 3, 0 })
-    {
-      this->MakeSide(lines, side);
-    }
-  }
-
-  /// Where the vertices of the border are.
-  const std::vector<Pair>& Border() const { return this->Positions; }
-
-  std::array<double, 3> Local(const Pair& x) const
-  {
-    std::array<double, 3> local{};
-    if (this->F.Fixed >= 0)
-    {
-      local[At(this->F.Fixed)] = this->F.End;
-    }
-    for (std::size_t a = 0; a < 2; ++a)
-    {
-      local[At(this->F.Axes[a])] =
-        static_cast<double>(x[a] - this->F.Lower[a]) / static_cast<double>(this->F.Size[a]);
-    }
-    return local;
-  }
-
-  /// Of the border, between its corners, and in the middles of cells with vertices on their sides.
-  std::int64_t NumVertices() const
-  {
-    std::vector<Pair> withMiddle;
-    for (int side = 0; side < 4; ++side)
-    {
-      const auto axis = static_cast<std::size_t>(SideAxis(side));
-      for (std::size_t k = 0; k < this->Extra[At(side)].size(); ++k)
-      {
-        if (!this->Extra[At(side)][k].empty())
-        {
-          Pair cell{};
-          cell[axis] = static_cast<std::int64_t>(k);
-          cell[1 - axis] = side % 2 == 0 ? 0 : this->N[1 - axis] - 1;
-          withMiddle.push_back(cell);
-        }
-      }
-    }
-    std::sort(withMiddle.begin(), withMiddle.end());
-    const auto end = std::unique(withMiddle.begin(), withMiddle.end());
-    return static_cast<std::int64_t>(this->Positions.size()) + (this->N[0] - 1) * (this->N[1] - 1) +
-      (end - withMiddle.begin());
   }
 
   void Cut(knotwork::Cut& made)
   {
     made.Clear();
-    for (const Pair& x : this->Positions)
+    this->Grid.assign(At((this->N[0] + 1) * (this->N[1] + 1)), -1);
+    for (std::size_t side = 0; side < 4; ++side)
     {
-      made.Local.push_back(this->Local(x));
+      this->Extra[side].assign(At(this->N[At(SideAxis(static_cast<int>(side)))]), {});
     }
+    ForBorder(this->F, this->Lines,
+      [&](int side, std::int64_t position) { this->AddBorder(side, position, made); });
     for (std::int64_t j = 1; j < this->N[1]; ++j)
     {
       for (std::int64_t i = 1; i < this->N[0]; ++i)
       {
-        this->At2(i, j) = this->AddInner(
+        this->At2(i, j) = this->Add(
           { this->F.Lower[0] + i * this->Step[0], this->F.Lower[1] + j * this->Step[1] }, made);
       }
     }
@@ -364,41 +368,25 @@ public:
 private:
   int& At2(std::int64_t i, std::int64_t j) { return this->Grid[At(i + (this->N[0] + 1) * j)]; }
 
-  int AddBorder(const Pair& x)
+  int Add(const Pair& x, knotwork::Cut& made) const
   {
-    this->Positions.push_back(x);
-    return static_cast<int>(this->Positions.size()) - 1;
-  }
-
-  int AddInner(const Pair& x, knotwork::Cut& made) const
-  {
-    made.Local.push_back(this->Local(x));
+    made.Local.push_back(LocalOf(this->F, x));
     return static_cast<int>(made.Local.size()) - 1;
   }
 
-  /// Vertices along a side; those between grid points are kept by the cell they lie at.
-  void MakeSide(const LinePoints& lines, int side)
+  /// Vertices between grid points are kept by the cell they lie at.
+  void AddBorder(int side, std::int64_t position, knotwork::Cut& made)
   {
-    const int axis = SideAxis(side);
-    auto& extra = this->Extra[At(side)];
-    extra.assign(At(this->N[At(axis)]), {});
-    for (const std::int64_t position : lines.Along(this->F, side))
+    const int vertex = this->Add(PositionOnSide(this->F, side, position), made);
+    const auto [cell, isBetween] = CellAlong(this->F, side, position);
+    const std::int64_t end = side % 2 == 0 ? 0 : this->N[AcrossSide(side)];
+    if (isBetween)
     {
-      const std::int64_t offset = position - this->F.Lower[At(axis)];
-      const std::int64_t cell = offset / this->Step[At(axis)];
-      const Pair x = axis == 0 ? Pair{ position, SideFixed(this->F, side) }
-                               : Pair{ SideFixed(this->F, side), position };
-      if (offset % this->Step[At(axis)] != 0)
-      {
-        extra[At(cell)].push_back(this->AddBorder(x));
-        continue;
-      }
-      const std::int64_t end = side % 2 == 0 ? 0 : this->N[AcrossSide(side)];
-      int& corner = axis == 0 ? this->At2(cell, end) : this->At2(end, cell);
-      if (corner < 0)
-      {
-        corner = this->AddBorder(x);
-      }
+      this->Extra[At(side)][At(cell)].push_back(vertex);
+    }
+    else
+    {
+      (SideAxis(side) == 0 ? this->At2(cell, end) : this->At2(end, cell)) = vertex;
     }
   }
 
@@ -438,8 +426,8 @@ private:
       made.AddCell(TessellationShape::Quadrilateral, { loop[0], loop[1], loop[2], loop[3] });
       return;
     }
-    const int middle = this->AddInner({ this->F.Lower[0] + i * this->Step[0] + this->Step[0] / 2,
-                                        this->F.Lower[1] + j * this->Step[1] + this->Step[1] / 2 },
+    const int middle = this->Add({ this->F.Lower[0] + i * this->Step[0] + this->Step[0] / 2,
+                                   this->F.Lower[1] + j * this->Step[1] + this->Step[1] / 2 },
       made);
     for (std::size_t k = 0; k < loop.size(); ++k)
     {
@@ -448,9 +436,9 @@ private:
   }
 
   const Face& F;
+  const LinePoints& Lines;
   Pair N{};
   Pair Step{};
-  std::vector<Pair> Positions;
   std::vector<int> Grid;
   std::array<std::vector<std::vector<int>>, 4> Extra;
   std::vector<int> Loop;
@@ -491,6 +479,10 @@ public:
       return status;
     }
     this->MatchSides(patches.front().NumComponents + 1, LargestValue<Dim>(patches));
+    for (Face& face : this->Faces) // for bounds and matches alone
+    {
+      face.Points = {};
+    }
     this->DivideSides();
     return params.Progress && !params.Progress(0.2) ? Status(ErrorCode::Aborted, "") : Status();
   }
@@ -508,14 +500,29 @@ public:
   }
   std::int64_t Border(std::size_t cut, std::vector<BorderVertex>& border) const override
   {
-    const FaceCutter cutter(this->Faces[cut], this->Lines);
+    const Face& face = this->Faces[cut];
+    const Pair n{ std::int64_t{ 1 } << face.Halvings[0], std::int64_t{ 1 } << face.Halvings[1] };
+    std::vector<Pair> withMiddle;
     border.clear();
-    for (const Pair& x : cutter.Border())
-    {
-      border.push_back({ { this->Faces[cut].Chart, { x[0], x[1], 0 } },
-        static_cast<std::int64_t>(border.size()), cutter.Local(x) });
-    }
-    return cutter.NumVertices();
+    ForBorder(face, this->Lines,
+      [&](int side, std::int64_t position)
+      {
+        const Pair x = PositionOnSide(face, side, position);
+        border.push_back({ { face.Chart, { x[0], x[1], 0 } },
+          static_cast<std::int64_t>(border.size()), LocalOf(face, x) });
+        const auto [at, isBetween] = CellAlong(face, side, position);
+        if (isBetween)
+        {
+          Pair cell{};
+          cell[At(SideAxis(side))] = at;
+          cell[AcrossSide(side)] = side % 2 == 0 ? 0 : n[AcrossSide(side)] - 1;
+          withMiddle.push_back(cell);
+        }
+      });
+    std::sort(withMiddle.begin(), withMiddle.end());
+    const auto end = std::unique(withMiddle.begin(), withMiddle.end());
+    return static_cast<std::int64_t>(border.size()) + (n[0] - 1) * (n[1] - 1) +
+      (end - withMiddle.begin());
   }
   void Make(std::size_t cut, Cut& made) const override
   {

@@ -32,6 +32,8 @@ using GridLevels = std::vector<std::array<int, 3>>;
 /// Elements with the grids of their charts.
 class VolumeCuts : public TessellationCuts
 {
+  static constexpr int MaximumGridLevel = 24; ///< halvings of an element for its neighbours' sake
+
 public:
   VolumeCuts(const std::vector<BezierForm<3>>& patches, const TessellationParams& params)
     : Patches(patches), Params(params)
@@ -220,7 +222,7 @@ private:
     return point;
   }
 
-  /// Finds the faces that are one and raises levels until their grids agree. The limit on sweeps
+  /// Finds the faces that are one and raises levels until their grids agree. The limit of levels
   /// ends a model whose hierarchies contradict each other; such faces stay apart.
   void MatchFaces()
   {
@@ -244,31 +246,61 @@ private:
       }
     }
     this->Interfaces = matcher.Interfaces();
-    bool changed = true;
-    for (int sweep = 0; sweep < 1000 && changed; ++sweep)
+    std::vector<std::vector<std::size_t>> ofChart(At(this->NumCharts));
+    std::vector<std::size_t> open;
+    for (std::size_t i = 0; i < this->Interfaces.size(); ++i)
     {
-      changed = false;
-      for (const PatchInterface& shared : this->Interfaces)
+      for (const PatchSide& side : this->Interfaces[i].Sides)
       {
-        const RimFace& a = this->Faces[At(shared.Sides[0].Patch)];
-        const RimFace& b = this->Faces[At(shared.Sides[1].Patch)];
-        const int levelA = this->Cell(a.Patch, a.Element).Level;
-        const int levelB = this->Cell(b.Patch, b.Element).Level;
-        for (std::size_t i = 0; i < 2; ++i)
-        {
-          int& gridA = this->GridLevel(a, At(shared.Orientation.Axis[i]));
-          int& gridB = this->GridLevel(b, i);
-          const int needed = std::max(gridA - levelA, gridB - levelB);
-          if (needed <= 24 && (gridA - levelA != needed || gridB - levelB != needed))
-          {
-            gridA = levelA + needed;
-            gridB = levelB + needed;
-            changed = true;
-          }
-        }
+        ofChart[At(this->ChartOf(this->Faces[At(side.Patch)]))].push_back(i);
+      }
+      open.push_back(i);
+    }
+    while (!open.empty())
+    {
+      const PatchInterface& shared = this->Interfaces[open.back()];
+      open.pop_back();
+      for (const PatchSide& raised : this->RaiseLevels(shared))
+      {
+        const auto& others = ofChart[At(this->ChartOf(this->Faces[At(raised.Patch)]))];
+        open.insert(open.end(), others.begin(), others.end());
       }
     }
   }
+
+  /// Raises the levels of two grids to the finer one at their common side.
+  /// @return the sides whose charts have another level.
+  std::vector<PatchSide> RaiseLevels(const PatchInterface& shared)
+  {
+    const RimFace& a = this->Faces[At(shared.Sides[0].Patch)];
+    const RimFace& b = this->Faces[At(shared.Sides[1].Patch)];
+    const int levelA = this->Cell(a.Patch, a.Element).Level;
+    const int levelB = this->Cell(b.Patch, b.Element).Level;
+    std::vector<PatchSide> raised;
+    for (std::size_t i = 0; i < 2; ++i)
+    {
+      int& gridA = this->GridLevel(a, At(shared.Orientation.Axis[i]));
+      int& gridB = this->GridLevel(b, i);
+      const int needed = std::max(gridA - levelA, gridB - levelB);
+      if (needed > MaximumGridLevel)
+      {
+        continue;
+      }
+      if (gridA - levelA < needed)
+      {
+        gridA = levelA + needed;
+        raised.push_back(shared.Sides[0]);
+      }
+      if (gridB - levelB < needed)
+      {
+        gridB = levelB + needed;
+        raised.push_back(shared.Sides[1]);
+      }
+    }
+    return raised;
+  }
+
+  int ChartOf(const RimFace& face) const { return this->Cell(face.Patch, face.Element).Chart; }
 
   int& GridLevel(const RimFace& face, std::size_t axis)
   {

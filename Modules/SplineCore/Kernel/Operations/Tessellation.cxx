@@ -57,7 +57,7 @@ Result<TessellationMesh> Tessellate(
   {
     return { ErrorCode::InvalidParameter, "the part must be in [0, Parts)" };
   }
-  int elements = 0;
+  std::int64_t elements = 0;
   for (std::size_t p = 0; p < patches.size(); ++p)
   {
     Status status = CheckPatch<Dim>(patches[p], p);

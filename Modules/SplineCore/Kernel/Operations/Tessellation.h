@@ -51,6 +51,7 @@ struct TessellationMesh
 {
   PointMatrix Points;            ///< n x c
   PointMatrix Normals;           ///< n x 3 unit vectors, or empty
+  bool HasNormals = false;       ///< whether points, if there are any, have normals
   std::vector<int> PointPatch;   ///< index into the patches
   std::vector<int> PointElement; ///< element of the patch
   PointMatrix PointLocal;        ///< n x Dim in [0, 1]

@@ -3,6 +3,8 @@
 #include "TessellationPlaces.h"
 
 #include <algorithm>
+#include <limits>
+#include <string>
 
 namespace knotwork
 {
@@ -15,8 +17,17 @@ std::size_t At(std::int64_t i)
 
 /// Vertices that are evaluated together, about.
 constexpr std::int64_t BatchVertices = 4096;
-/// Batches between two reports of the progress.
+/// Most batches between two reports of the progress, and vertices that end them.
 constexpr std::size_t WaveBatches = 64;
+constexpr std::int64_t WaveVertices = 1 << 20;
+
+/// Work that is done together, each part with about as many vertices.
+struct Batches
+{
+  std::vector<std::size_t> First; ///< cut of each, and the end
+  std::vector<std::int64_t> Vertices;
+  std::size_t Count() const { return this->Vertices.size(); }
+};
 
 /// A vertex of a cut on the border of its element, in the order of cuts.
 struct BorderUse
@@ -55,8 +66,9 @@ public:
   Status Assemble()
   {
     this->FindShare();
-    this->NumberVertices();
-    if (Status status = this->MakeBorderPoints(); !status)
+    Status status = this->NumberVertices();
+    status = status ? this->MakeBorderPoints() : status;
+    if (!status)
     {
       return status;
     }
@@ -86,25 +98,44 @@ private:
     }
   }
 
-  bool IsOwn(std::size_t cut) const { return cut >= this->Begin && cut < this->End; }
-
   /// Border uses of all cuts with their vertices; what the part needs of them.
-  void NumberVertices()
+  Status NumberVertices()
   {
     VertexTable table;
-    std::vector<BorderVertex> border;
-    for (std::size_t cut = 0; cut < this->Cuts.Count(); ++cut)
+    std::vector<std::vector<BorderVertex>> borders(1024); // that are found at once
+    std::vector<std::int64_t> counts(borders.size());
+    for (std::size_t first = 0; first < this->Cuts.Count(); first += borders.size())
     {
-      this->NumVertices.push_back(this->Cuts.Border(cut, border));
-      for (const BorderVertex& vertex : border)
+      const std::size_t count = std::min(borders.size(), this->Cuts.Count() - first);
+      ParallelFor(count, 16, this->Params.Threads,
+        [&](std::size_t begin, std::size_t end)
+        {
+          for (std::size_t i = begin; i < end; ++i)
+          {
+            counts[i] = this->Cuts.Border(first + i, borders[i]);
+          }
+        });
+      for (std::size_t i = 0; i < count; ++i)
       {
-        this->Uses.push_back({ table.NumberOf(vertex.Position) });
+        constexpr std::int64_t most = std::numeric_limits<int>::max();
+        const auto uses = static_cast<std::int64_t>(this->Uses.size() + borders[i].size());
+        if (counts[i] > most || uses > most)
+        {
+          return { ErrorCode::TooLarge,
+            "the elements have more than " + std::to_string(most) +
+              " vertices on their borders, or one of them has within; raise the tolerance" };
+        }
+        this->NumVertices.push_back(counts[i]);
+        for (const BorderVertex& vertex : borders[i])
+        {
+          this->Uses.push_back({ table.NumberOf(vertex.Position) });
+        }
+        this->FirstUse.push_back(this->Uses.size());
       }
-      this->FirstUse.push_back(this->Uses.size());
     }
     this->Cuts.Unite(table);
     const std::size_t numVertices = At(table.Sets.Size());
-    this->Wanted.assign(numVertices, this->Params.Parts == 1 || this->Splits());
+    this->Wanted.assign(numVertices, this->Params.Parts == 1 || this->Params.Splitting);
     this->IsFirst.assign(this->Uses.size(), false);
     std::vector<bool> seen(numVertices, false);
     for (std::size_t use = 0; use < this->Uses.size(); ++use)
@@ -118,50 +149,48 @@ private:
     {
       this->Wanted[At(this->Uses[use].Vertex)] = true;
     }
+    return {};
   }
 
-  /// Whether a vertex may become several points.
-  bool Splits() const { return this->Params.Splitting; }
-
-  /// Batches of cuts, each with some thousand vertices.
-  std::vector<std::size_t> BatchesOf(
-    std::size_t begin, std::size_t end, const std::vector<std::int64_t>& weights) const
+  static Batches BatchesOf(
+    std::size_t begin, std::size_t end, const std::vector<std::int64_t>& vertices)
   {
-    std::vector<std::size_t> first{ begin };
-    std::int64_t count = 0;
+    Batches batches;
     for (std::size_t cut = begin; cut < end; ++cut)
     {
-      count += weights[cut];
-      if (count >= BatchVertices)
+      if (batches.Vertices.empty() || batches.Vertices.back() >= BatchVertices)
       {
-        first.push_back(cut + 1);
-        count = 0;
+        batches.First.push_back(cut);
+        batches.Vertices.push_back(0);
       }
+      batches.Vertices.back() += vertices[cut];
     }
-    if (first.back() < end)
-    {
-      first.push_back(end);
-    }
-    return first;
+    batches.First.push_back(end);
+    return batches;
   }
 
-  /// Does work(batch, first cut, last cut) for batches at once and take(batch) one after the other,
-  /// wave after wave.
+  /// Does work(i, first cut, last cut) for the batches of a wave at once, i from 0, and then
+  /// take(i, first cut, last cut) one after the other; wave after wave.
   template <typename Work, typename Take>
-  Status InWaves(const std::vector<std::size_t>& first, double progressFrom, double progressTo,
-    const Work& work, const Take& take)
+  Status InWaves(const Batches& batches, double progressFrom, double progressTo, const Work& work,
+    const Take& take)
   {
-    const std::size_t batches = first.size() - 1;
-    for (std::size_t wave = 0; wave < batches; wave += WaveBatches)
+    for (std::size_t wave = 0, count = 0; wave < batches.Count(); wave += count)
     {
-      const std::size_t count = std::min(WaveBatches, batches - wave);
+      std::int64_t vertices = 0;
+      for (count = 0;
+           count < WaveBatches && wave + count < batches.Count() && vertices < WaveVertices;
+           ++count)
+      {
+        vertices += batches.Vertices[wave + count];
+      }
       std::vector<Status> failed(count);
       ParallelFor(count, 1, this->Params.Threads,
         [&](std::size_t begin, std::size_t end)
         {
           for (std::size_t i = begin; i < end; ++i)
           {
-            failed[i] = work(i, first[wave + i], first[wave + i + 1]);
+            failed[i] = work(i, batches.First[wave + i], batches.First[wave + i + 1]);
           }
         });
       for (const Status& status : failed)
@@ -173,9 +202,9 @@ private:
       }
       for (std::size_t i = 0; i < count; ++i)
       {
-        take(i, first[wave + i], first[wave + i + 1]);
+        take(i, batches.First[wave + i], batches.First[wave + i + 1]);
       }
-      const double done = static_cast<double>(wave + count) / static_cast<double>(batches);
+      const double done = static_cast<double>(wave + count) / static_cast<double>(batches.Count());
       if (this->Params.Progress &&
         !this->Params.Progress(progressFrom + (progressTo - progressFrom) * done))
       {
@@ -196,97 +225,100 @@ private:
   Status MakeBorderPoints()
   {
     this->PointOf.assign(this->Wanted.size(), -1);
-    this->CopiesOf.assign(this->Splits() ? this->Wanted.size() : 0, {});
-    std::vector<std::int64_t> weights;
+    this->CopiesOf.assign(this->Params.Splitting ? this->Wanted.size() : 0, {});
+    std::vector<std::int64_t> uses;
     for (std::size_t cut = 0; cut < this->Cuts.Count(); ++cut)
     {
-      weights.push_back(static_cast<std::int64_t>(this->FirstUse[cut + 1] - this->FirstUse[cut]));
+      uses.push_back(static_cast<std::int64_t>(this->FirstUse[cut + 1] - this->FirstUse[cut]));
     }
-    std::vector<Places<Dim>> places(WaveBatches);
+    std::vector<WantedUses> wanted(WaveBatches);
     const Status status = this->InWaves(
-      this->BatchesOf(0, this->Cuts.Count(), weights), 0.2, 0.4,
+      this->BatchesOf(0, this->Cuts.Count(), uses), 0.2, 0.4,
+      [&](std::size_t i, std::size_t begin, std::size_t end)
+      { return this->EvaluateBorders(begin, end, wanted[i]); },
       [&](std::size_t i, std::size_t begin, std::size_t end)
       {
-        places[i].Clear();
-        std::vector<BorderVertex> border;
         for (std::size_t cut = begin; cut < end; ++cut)
         {
-          const std::size_t first = this->FirstUse[cut];
-          std::size_t use = first;
-          while (use < this->FirstUse[cut + 1] && !this->IsEvaluated(use))
-          {
-            ++use;
-          }
-          if (use == this->FirstUse[cut + 1])
-          {
-            continue;
-          }
-          this->Cuts.Border(cut, border);
-          const CutElement element = this->Cuts.ElementOf(cut);
-          for (; use < this->FirstUse[cut + 1]; ++use)
-          {
-            if (this->IsEvaluated(use))
-            {
-              places[i].Add(element, border[use - first].Local);
-            }
-          }
-        }
-        return places[i].Evaluate(this->Patches, this->Normals);
-      },
-      [&](std::size_t i, std::size_t begin, std::size_t end)
-      {
-        Eigen::Index row = 0;
-        for (std::size_t cut = begin; cut < end; ++cut)
-        {
-          this->NumberPoints(cut, places[i], row);
+          this->NumberPoints(cut, wanted[i]);
         }
       });
     this->Mesh.NumPointsOfAll = this->NextPoint;
     return status;
   }
 
+  /// Uses of a batch that are wanted, in order.
+  struct WantedUses
+  {
+    std::vector<std::int64_t> Numbers; ///< among the vertices of the cut
+    std::size_t Next = 0;
+    Places<Dim> Evaluated;
+    Eigen::Index NextPlace = 0;
+  };
+
+  Status EvaluateBorders(std::size_t begin, std::size_t end, WantedUses& wanted) const
+  {
+    wanted = WantedUses();
+    std::vector<BorderVertex> border;
+    for (std::size_t cut = begin; cut < end; ++cut)
+    {
+      const std::size_t first = this->FirstUse[cut];
+      border.clear();
+      for (std::size_t use = first; use < this->FirstUse[cut + 1]; ++use)
+      {
+        if (!this->IsWanted(use))
+        {
+          continue;
+        }
+        if (border.empty())
+        {
+          this->Cuts.Border(cut, border);
+        }
+        wanted.Numbers.push_back(border[use - first].Number);
+        if (this->IsEvaluated(use))
+        {
+          wanted.Evaluated.Add(this->Cuts.ElementOf(cut), border[use - first].Local);
+        }
+      }
+    }
+    return wanted.Evaluated.Evaluate(this->Patches, this->Normals, this->Params.Threads);
+  }
+
   /// Points of the next cut, of which those within are new.
-  /// @param row  of the next evaluated border use.
-  void NumberPoints(std::size_t cut, const Places<Dim>& places, Eigen::Index& row)
+  void NumberPoints(std::size_t cut, WantedUses& wanted)
   {
     this->FirstPoint.push_back(this->NextPoint);
-    const std::size_t first = this->FirstUse[cut];
-    const std::size_t end = this->FirstUse[cut + 1];
-    std::vector<BorderVertex> border;
+    const int patch = this->Cuts.ElementOf(cut).Patch;
     std::int64_t repeated = 0; // border vertices that are points of cuts before or of this one
-    for (std::size_t use = first; use < end; ++use)
+    for (std::size_t use = this->FirstUse[cut]; use < this->FirstUse[cut + 1]; ++use)
     {
-      if (!this->IsWanted(use))
+      bool isNew = this->IsFirst[use];
+      if (this->IsWanted(use))
       {
-        repeated += this->IsFirst[use] ? 0 : 1;
-        continue;
+        const std::int64_t number = this->NextPoint + wanted.Numbers[wanted.Next++] - repeated;
+        isNew = this->TakePoint(use, patch, number, wanted);
       }
-      if (border.empty())
-      {
-        this->Cuts.Border(cut, border);
-      }
-      const std::int64_t number = this->NextPoint + border[use - first].Number - repeated;
-      repeated +=
-        this->TakePoint(use, this->Cuts.ElementOf(cut).Patch, number, places, row) ? 0 : 1;
+      repeated += isNew ? 0 : 1;
     }
     this->NextPoint += this->NumVertices[cut] - repeated;
   }
 
   /// The point that a border use is.
-  /// @param number  of the point, if it is new.   @param row  of the next evaluated border use.
+  /// @param number  of the point, if it is new.
   /// @return whether it is new.
-  bool TakePoint(
-    std::size_t use, int patch, std::int64_t number, const Places<Dim>& places, Eigen::Index& row)
+  bool TakePoint(std::size_t use, int patch, std::int64_t number, WantedUses& wanted)
   {
     BorderUse& own = this->Uses[use];
     const auto vertex = At(own.Vertex);
-    const Eigen::Index place = this->IsEvaluated(use) ? row++ : -1;
+    const Places<Dim>& places = wanted.Evaluated;
+    const Eigen::Index place = this->IsEvaluated(use) ? wanted.NextPlace++ : -1;
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();
     if (this->Normals)
     {
       normal = places.Normals.row(place).transpose();
     }
-    own.Point = this->Splits() ? this->FindCopy(vertex, patch, normal) : this->PointOf[vertex];
+    own.Point =
+      this->Params.Splitting ? this->FindCopy(vertex, patch, normal) : this->PointOf[vertex];
     const bool isNew = own.Point < 0;
     if (isNew)
     {
@@ -304,7 +336,7 @@ private:
       {
         this->BorderNormals.push_back({ normal });
       }
-      if (this->Splits())
+      if (this->Params.Splitting)
       {
         this->CopiesOf[vertex].emplace_back(patch, own.Point);
       }
@@ -359,6 +391,7 @@ private:
     const std::size_t count = At(this->NumOwn) + this->Mesh.SharedPoints.size();
     this->Mesh.Points.resize(static_cast<Eigen::Index>(count), this->Components);
     this->Mesh.PointLocal.resize(static_cast<Eigen::Index>(count), Dim);
+    this->Mesh.HasNormals = this->Normals;
     this->Mesh.Normals.resize(this->Normals ? static_cast<Eigen::Index>(count) : 0, 3);
     this->Mesh.PointPatch.resize(count);
     this->Mesh.PointElement.resize(count);
@@ -397,7 +430,7 @@ private:
     {
       // Where all uses agree the normal is that of the first one, else the mean of all.
       const BorderNormal& normal = this->BorderNormals[At(point)];
-      const bool isMean = !this->Splits() && normal.IsCrease && normal.Sum.norm() > 1e-12;
+      const bool isMean = !this->Params.Splitting && normal.IsCrease && normal.Sum.norm() > 1e-12;
       this->Mesh.Normals.row(row) = (isMean ? normal.Sum.normalized() : normal.First).transpose();
     }
   }
@@ -435,9 +468,8 @@ private:
   {
     Places<Dim> Inner;
     std::vector<TessellationShape> Shapes;
-    std::vector<int> Sizes;
     std::vector<std::int64_t> Corners; ///< rows of points
-    std::vector<int> Cuts;             ///< of the cells, from the batch's first
+    std::vector<std::size_t> Count;    ///< cells of every cut
   };
 
   Status MakeCuts()
@@ -450,6 +482,11 @@ private:
     }
     const int numCorners = !this->Polygons ? Dim == 1 ? 2 : 8 : 4;
     this->Mesh.Connectivity.reserve(static_cast<std::size_t>(numCells * numCorners));
+    const auto cells = static_cast<std::size_t>(numCells); // about
+    this->Mesh.Shapes.reserve(cells);
+    this->Mesh.Offsets.reserve(cells + 1);
+    this->Mesh.CellPatch.reserve(cells);
+    this->Mesh.CellElement.reserve(cells);
     this->Mesh.Offsets.push_back(0);
     std::vector<MadeCells> made(WaveBatches);
     return this->InWaves(
@@ -458,22 +495,25 @@ private:
       { return this->MakeBatch(begin, end, made[i]); },
       [&](std::size_t i, std::size_t begin, std::size_t)
       {
-        const MadeCells& cells = made[i];
+        const MadeCells& batch = made[i];
         auto& corners = this->Mesh.Connectivity;
-        corners.insert(corners.end(), cells.Corners.begin(), cells.Corners.end());
+        corners.insert(corners.end(), batch.Corners.begin(), batch.Corners.end());
         auto& shapes = this->Mesh.Shapes;
-        shapes.insert(shapes.end(), cells.Shapes.begin(), cells.Shapes.end());
-        for (std::size_t c = 0; c < cells.Shapes.size(); ++c)
+        shapes.insert(shapes.end(), batch.Shapes.begin(), batch.Shapes.end());
+        for (const TessellationShape shape : batch.Shapes)
         {
-          this->Mesh.Offsets.push_back(this->Mesh.Offsets.back() + cells.Sizes[c]);
-          const CutElement element = this->Cuts.ElementOf(begin + At(cells.Cuts[c]));
-          this->Mesh.CellPatch.push_back(element.Patch);
-          this->Mesh.CellElement.push_back(element.Element);
-          if (element.Side >= 0)
-          {
-            this->Mesh.CellSide.push_back(element.Side);
-          }
+          this->Mesh.Offsets.push_back(
+            this->Mesh.Offsets.back() + static_cast<std::int64_t>(NumCorners(shape)));
         }
+        for (std::size_t c = 0; c < batch.Count.size(); ++c)
+        {
+          const CutElement element = this->Cuts.ElementOf(begin + c);
+          const std::size_t count = this->Mesh.CellPatch.size() + batch.Count[c];
+          this->Mesh.CellPatch.resize(count, element.Patch);
+          this->Mesh.CellElement.resize(count, element.Element);
+          this->Mesh.CellSide.resize(element.Side >= 0 ? count : 0, element.Side);
+        }
+        made[i] = MadeCells();
       });
   }
 
@@ -488,9 +528,11 @@ private:
     {
       this->Cuts.Make(c, cut);
       this->PlaceVertices(c, cut, rows, vertices, inner, made.Inner);
-      this->AddCells(static_cast<int>(c - begin), cut, rows, vertices, made);
+      const std::size_t before = made.Shapes.size();
+      this->AddCells(cut, rows, vertices, made);
+      made.Count.push_back(made.Shapes.size() - before);
     }
-    const Status status = made.Inner.Evaluate(this->Patches, this->Normals);
+    const Status status = made.Inner.Evaluate(this->Patches, this->Normals, this->Params.Threads);
     for (std::size_t i = 0; status && i < inner.size(); ++i)
     {
       this->Mesh.Points.row(inner[i]) = made.Inner.Values.row(static_cast<Eigen::Index>(i));
@@ -541,7 +583,7 @@ private:
   }
 
   /// Corners that became one vertex are dropped, and polygons without area with them.
-  void AddCells(int index, const knotwork::Cut& cut, const std::vector<std::int64_t>& rows,
+  void AddCells(const knotwork::Cut& cut, const std::vector<std::int64_t>& rows,
     const std::vector<int>& vertices, MadeCells& made) const
   {
     std::size_t first = 0;
@@ -567,8 +609,6 @@ private:
         continue;
       }
       made.Shapes.push_back(this->Polygons && kept == 3 ? TessellationShape::Triangle : shape);
-      made.Sizes.push_back(static_cast<int>(kept));
-      made.Cuts.push_back(index);
       for (std::size_t k = 0; k < kept; ++k)
       {
         made.Corners.push_back(rows[At(corners[k])]);

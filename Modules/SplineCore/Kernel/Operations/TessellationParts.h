@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Parts of the tessellation, private to the kernel: dyadic charts, sides that match, vertices.
+// Parts of the tessellation, private to the kernel: dyadic charts, sides that match, vertices, and
+// what elements are cut into.
 #pragma once
 #include "ChartCell.h"
 #include "DisjointSets.h"

@@ -52,11 +52,13 @@ void Places<Dim>::Add(const CutElement& cut, const std::array<double, 3>& local)
 }
 
 template <int Dim>
-Status Places<Dim>::Evaluate(const std::vector<BezierForm<Dim>>& patches, bool withNormals)
+Status Places<Dim>::Evaluate(
+  const std::vector<BezierForm<Dim>>& patches, bool withNormals, int threads)
 {
   const auto count = static_cast<Eigen::Index>(this->Count());
   this->Values.resize(count, patches.front().NumComponents);
   this->Normals.setZero(withNormals ? count : 0, 3);
+  this->Threads = threads;
   for (std::size_t begin = 0, end = 0; begin < this->Count(); begin = end)
   {
     while (end < this->Count() && this->Cuts[end].Patch == this->Cuts[begin].Patch)
@@ -144,7 +146,7 @@ Status Places<Dim>::EvaluateAt(const BezierForm<Dim>& form, const std::vector<st
   }
   EvaluationParams params;
   params.Derivatives = derivatives;
-  params.Threads = 1;
+  params.Threads = this->Threads;
   return EvaluateElements<Dim>(form, elements, local, params, batch);
 }
 

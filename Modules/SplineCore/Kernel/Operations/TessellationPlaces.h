@@ -14,7 +14,8 @@ public:
   void Add(const CutElement& cut, const std::array<double, 3>& local);
   std::size_t Count() const { return this->Cuts.size(); }
 
-  Status Evaluate(const std::vector<BezierForm<Dim>>& patches, bool withNormals);
+  /// @param threads  0: all cores.
+  Status Evaluate(const std::vector<BezierForm<Dim>>& patches, bool withNormals, int threads);
 
   PointMatrix Values;  ///< a row a place
   PointMatrix Normals; ///< unit vectors, zero where the element has none
@@ -28,6 +29,7 @@ private:
   Status EvaluateAt(const BezierForm<Dim>& form, const std::vector<std::size_t>& places,
     double shrink, int derivatives, EvaluationBatch& batch) const;
 
+  int Threads = 0;
   std::vector<CutElement> Cuts; ///< of every place
   std::vector<std::array<double, 3>> Local;
 };

@@ -7,6 +7,7 @@
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <random>
@@ -411,6 +412,49 @@ TEST(Tessellate, ThreadsGiveTheSameBits_PropertyOracle)
   EXPECT_EQ(one->Connectivity, two->Connectivity);
 }
 
+TEST(Tessellate, TheFinestOfManySolidsInARowDecides_ExactOracle)
+{
+  std::vector<BezierForm<3>> forms;
+  for (int i = 0; i < 1500; ++i)
+  {
+    ShapeParams cube = Shape(ShapeKind::Cube);
+    cube.Degree = 2;
+    cube.Center = { double(i), 0.0, 0.0 };
+    forms.push_back(Forms<3>(cube).front());
+  }
+  forms.back().Block(0)[2 + 3 * 4] += 0.5; // the middle of its far side is pulled out
+  TessellationParams params = Tolerance(0.02);
+  params.Output = TessellationOutput::Volume;
+  const auto mesh = Tessellate<3>(forms, params);
+  ASSERT_TRUE(mesh);
+  std::vector<Eigen::Index> cells(forms.size(), 0);
+  for (const int patch : mesh->CellPatch)
+  {
+    ++cells[std::size_t(patch)];
+  }
+  const auto across = Eigen::Index(std::lround(std::sqrt(double(cells.front())))); // along y, z
+  EXPECT_GT(across, 1);
+  EXPECT_TRUE(std::all_of(
+    cells.begin(), cells.end() - 1, [across](Eigen::Index n) { return n == across * across; }));
+  const Eigen::Index along = Eigen::Index(forms.size()) - 1 + cells.back() / (across * across);
+  EXPECT_EQ(mesh->Points.rows(), (along + 1) * (across + 1) * (across + 1));
+}
+
+TEST(Tessellate, ProgressGrows_PropertyOracle)
+{
+  std::vector<double> told;
+  TessellationParams params = Tolerance(1e-5);
+  params.Progress = [&told](double progress)
+  {
+    told.push_back(progress);
+    return true;
+  };
+  ASSERT_TRUE(Tessellate<2>(Forms<2>(Shape(ShapeKind::TorusSurface)), params));
+  EXPECT_GT(told.size(), 4U);
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  EXPECT_LE(told.back(), 1.0);
+}
+
 /// Joins the parts of a tessellation: what comes one after the other, and points by their numbers.
 template <int Dim>
 void ExpectPartsAreTheWhole(
@@ -433,8 +477,7 @@ void ExpectPartsAreTheWhole(
     std::vector<std::int64_t> numbers;
     for (std::size_t i = 0; i < count; ++i)
     {
-      numbers.push_back(
-        i < own ? part->FirstPoint + std::int64_t(i) : part->SharedPoints[i - own]);
+      numbers.push_back(i < own ? part->FirstPoint + std::int64_t(i) : part->SharedPoints[i - own]);
       EXPECT_EQ(part->Points.row(Eigen::Index(i)), whole->Points.row(numbers.back()));
       EXPECT_EQ(part->PointLocal.row(Eigen::Index(i)), whole->PointLocal.row(numbers.back()));
       EXPECT_EQ(part->PointPatch[i], whole->PointPatch[std::size_t(numbers.back())]);

@@ -295,7 +295,7 @@ std::vector<double> FitDivision::BringHome(std::vector<double> values) const
   const std::size_t longest =
     *std::max_element(this->Received.begin(), this->Received.end()); // of what one has sent
   const auto most = static_cast<std::size_t>(this->Largest(static_cast<double>(longest)));
-  for (std::size_t first = 0; first < most; first += PointBatch) // as they were dealt
+  for (std::size_t first = 0; first < most; first += PointBatch) // of each process
   {
     std::vector<std::string> hands;
     std::size_t begin = 0;
@@ -306,6 +306,7 @@ std::vector<double> FitDivision::BringHome(std::vector<double> values) const
         AsBytes(values.data() + begin + from, std::min(first + PointBatch, received) - from));
       begin += received;
     }
+    this->All(true); // as in Deal
     const std::vector<std::string> all = this->Processes->Deal(std::move(hands));
     for (std::size_t p = 0; p < all.size(); ++p)
     {
