@@ -6,6 +6,7 @@
 #include <knotwork/SplineCore/FileEnding.h>
 #include <knotwork/SplineCore/FileOutput.h>
 #include <knotwork/SplineGrid/NamedArray.h>
+#include <knotwork/SplineGrid/PieceSchema.h>
 #include <knotwork/SplineGrid/Processes.h>
 #include <knotwork/SplineGrid/SplineModel.h>
 #include <knotwork/SplineGrid/SplineSchema.h>
@@ -30,6 +31,7 @@
 #include <algorithm>
 #include <map>
 #include <system_error>
+#include <utility>
 
 namespace fs = std::filesystem;
 
@@ -110,8 +112,12 @@ Result<vtkSmartPointer<vtkDataObject>> JoinSplines(
   SplineModel all;
   std::vector<vtkIdType> cells;
   vtkIdType before = 0;
+  std::vector<vtkFieldData*> fieldData;
+  std::map<int, std::pair<int, int>> places; // index and dimension by PatchId
+  bool areNumbered = true;                   // each patch by a number of its own
   for (const auto& piece : pieces)
   {
+    fieldData.push_back(piece->GetFieldData());
     auto model = DecodeSplineModel(piece, 1);
     if (!model)
     {
@@ -124,6 +130,10 @@ Result<vtkSmartPointer<vtkDataObject>> JoinSplines(
       {
         cells.push_back(before + cell);
       }
+      const int dimension = static_cast<int>(patch.Geometry.index()) + 1;
+      areNumbered =
+        places.try_emplace(patch.Id, static_cast<int>(all.Patches.size()), dimension).second &&
+        areNumbered;
       all.Patches.push_back(std::move(patch));
     }
     for (PatchInterface one : model->Topology.Interfaces)
@@ -140,6 +150,10 @@ Result<vtkSmartPointer<vtkDataObject>> JoinSplines(
       all.Topology.Boundary.push_back(side);
     }
     before += piece->GetNumberOfElements(vtkDataObject::CELL);
+  }
+  if (areNumbered)
+  {
+    all.Topology = JoinTopologies(fieldData, places);
   }
   auto grid = vtkSmartPointer<vtkUnstructuredGrid>::New();
   const Status status = EncodeSplineGrid(all, grid);
@@ -437,6 +451,10 @@ std::vector<vtkSmartPointer<vtkUnstructuredGrid>> DivideGrid(
     }
     parts.push_back(WithUsedPoints(CellRange(grid, begin, end)));
     begin = end;
+  }
+  if (patches)
+  {
+    KeepOwnPatches(grid, parts);
   }
   return parts;
 }

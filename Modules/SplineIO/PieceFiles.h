@@ -31,9 +31,10 @@ VTKKNOTWORKSPLINEIO_EXPORT Result<std::vector<std::filesystem::path>> ReadPieceI
 VTKKNOTWORKSPLINEIO_EXPORT Result<vtkSmartPointer<vtkDataObject>> ReadPieces(
   const std::string& file, std::size_t begin = 0, std::size_t end = static_cast<std::size_t>(-1));
 
-/// Grids or polygons one after the other. Patches of splines become those of one spline grid;
-/// interfaces that are stated between patches of different pieces are lost. Points of different
-/// pieces are not united. Arrays that not all have are left out.
+/// Grids or polygons one after the other. Patches of splines become those of one spline grid, with
+/// the interfaces that are stated between them; where two have one number, those between patches of
+/// different pieces are lost. Points of different pieces are not united. Arrays that not all have
+/// are left out.
 /// @return failures of DecodeSplineModel and EncodeSplineGrid.
 VTKKNOTWORKSPLINEIO_EXPORT Result<vtkSmartPointer<vtkDataObject>> JoinPieces(
   const std::vector<vtkSmartPointer<vtkDataObject>>& pieces);
@@ -50,8 +51,8 @@ VTKKNOTWORKSPLINEIO_EXPORT Status WritePiece(vtkDataSet* piece, std::size_t numb
 VTKKNOTWORKSPLINEIO_EXPORT Status WritePieceIndex(
   vtkDataSet* like, const std::vector<std::size_t>& numbers, const std::string& index);
 
-/// Divides a grid into parts of as many cells as can be, patches of splines whole. Points have
-/// global ids.
+/// Divides a grid into parts of as many cells as can be, patches of splines whole, with what
+/// concerns these in the field data. Points have global ids.
 VTKKNOTWORKSPLINEIO_EXPORT std::vector<vtkSmartPointer<vtkUnstructuredGrid>> DivideGrid(
   vtkUnstructuredGrid* grid, std::size_t count);
 

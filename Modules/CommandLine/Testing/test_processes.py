@@ -337,6 +337,34 @@ def test_splines_in_pieces():
     assert math.isclose(reports[0]["measure"], reports[1]["measure"], rel_tol=1e-14)
 
 
+def test_interfaces_between_pieces():
+    """A piece has the definitions of its own patches, and what is stated of their sides; all pieces together what the whole has."""
+    ball, stated = path("stated.vtu"), path("stated.pvtu")
+    run(1, "source", "--shape", "ball", "--output", ball)
+    grid = read(ball)
+    rows = {(0, side, 1 + side, 0, 0, 0) for side in range(6)}  # the core with the blocks around it
+    table = numpy_to_vtk(np.array(sorted(rows), dtype=np.int64), deep=True)
+    table.SetName("KnotworkInterfaces")
+    grid.GetFieldData().AddArray(table)
+    write(grid, ball)
+    run(1, "convert", ball, "--output", stated, "--pieces", 3)
+    seen = set()
+    for i in range(3):
+        piece = read(path(f"stated/stated_{i}.vtu"))
+        own = set(vtk_to_numpy(piece.GetCellData().GetArray("PatchId")))
+        fields = piece.GetFieldData()
+        assert set(vtk_to_numpy(fields.GetArray("KnotworkPatches"))[:, 0]) == own
+        mine = {tuple(row) for row in vtk_to_numpy(fields.GetArray("KnotworkInterfaces"))}
+        assert mine == {row for row in rows if row[0] in own or row[2] in own}
+        seen |= own
+    assert len(seen) == 7
+    again = path("stated-again.vtu")
+    run(1, "convert", stated, "--output", again)
+    fields = read(again).GetFieldData()
+    assert {tuple(row) for row in vtk_to_numpy(fields.GetArray("KnotworkInterfaces"))} == rows
+    assert fields.GetArray("KnotworkInterfaces").GetNumberOfTuples() == len(rows)
+
+
 def test_blocks():
     """Blocks of a collection: refined, cut out, tessellated; of other things a grid is refined by the first process."""
     for patches in ("blocks.vtpc", "ball.vtu"):
