@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace knotwork
 {
@@ -14,6 +15,17 @@ namespace
 std::size_t At(std::int64_t i)
 {
   return static_cast<std::size_t>(i);
+}
+
+/// The least n with 2^n at least the size.
+int ExponentOf(std::int64_t size)
+{
+  int exponent = 0;
+  while ((std::int64_t{ 1 } << exponent) < size)
+  {
+    ++exponent;
+  }
+  return exponent;
 }
 
 /// A side of an element on the rim of its chart.
@@ -160,6 +172,55 @@ public:
         }
       }
     }
+  }
+  /// By lattices, where the elements of every chart have one grid and the numbers are not too
+  /// large.
+  VertexTable MakeTable() const override
+  {
+    std::vector<ChartLattice> lattices(At(this->NumCharts));
+    std::vector<std::array<std::int64_t, 3>> upper(lattices.size());
+    for (std::size_t cut = 0; cut < this->Count(); ++cut)
+    {
+      const CutElement element = this->ElementOf(cut);
+      const ChartCell<3>& cell = this->Cell(element.Patch, element.Element);
+      const auto n = this->Steps(element);
+      ChartLattice& lattice = lattices[At(cell.Chart)];
+      const bool isFirst = lattice.Count[0] == 0;
+      for (std::size_t d = 0; d < 3; ++d)
+      {
+        const std::int64_t step = cell.Size[d] / n[d];
+        const int shift = ExponentOf(step);
+        if (step != std::int64_t{ 1 } << shift || cell.Lower[d] % step != 0 ||
+          (!isFirst && shift != lattice.Shift[d]))
+        {
+          return VertexTable();
+        }
+        const std::int64_t end = cell.Lower[d] + cell.Size[d];
+        lattice.Shift[d] = shift;
+        lattice.Lower[d] = isFirst ? cell.Lower[d] : std::min(lattice.Lower[d], cell.Lower[d]);
+        std::int64_t& last = upper[At(cell.Chart)][d];
+        last = isFirst ? end : std::max(last, end);
+        lattice.Count[d] = 1;
+      }
+    }
+    double count = 0.0;
+    for (std::size_t c = 0; c < lattices.size(); ++c)
+    {
+      ChartLattice& lattice = lattices[c];
+      lattice.First = static_cast<int>(count);
+      double points = lattice.Count[0] == 0 ? 0.0 : 1.0;
+      for (std::size_t d = 0; d < 3; ++d)
+      {
+        lattice.Count[d] = ((upper[c][d] - lattice.Lower[d]) >> lattice.Shift[d]) + 1;
+        points *= static_cast<double>(lattice.Count[d]);
+      }
+      count += points;
+      if (count > std::numeric_limits<int>::max())
+      {
+        return VertexTable();
+      }
+    }
+    return VertexTable(std::move(lattices), static_cast<int>(count));
   }
   void Unite(VertexTable& vertices) const override
   {

@@ -101,7 +101,7 @@ private:
   /// Border uses of all cuts with their vertices; what the part needs of them.
   Status NumberVertices()
   {
-    VertexTable table;
+    VertexTable table = this->Cuts.MakeTable();
     std::vector<std::vector<BorderVertex>> borders(1024); // that are found at once
     std::vector<std::int64_t> counts(borders.size());
     for (std::size_t first = 0; first < this->Cuts.Count(); first += borders.size())

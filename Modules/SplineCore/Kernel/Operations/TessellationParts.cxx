@@ -58,6 +58,16 @@ void VertexTable::Grow()
 
 int VertexTable::NumberOf(const ChartPoint& point)
 {
+  if (!this->Lattices.empty())
+  {
+    const ChartLattice& lattice = this->Lattices[At(point.Chart)];
+    std::int64_t number = 0;
+    for (std::size_t d = 3; d-- > 0;)
+    {
+      number = number * lattice.Count[d] + ((point.X[d] - lattice.Lower[d]) >> lattice.Shift[d]);
+    }
+    return lattice.First + static_cast<int>(number);
+  }
   if (2 * this->Points.size() >= this->Slots.size())
   {
     this->Grow();

@@ -28,10 +28,25 @@ struct ChartPoint
   }
 };
 
-/// Vertices on the borders of elements, by position: an open hash table with linear probing.
+/// The grid that all vertices of a chart lie on.
+struct ChartLattice
+{
+  int First = 0; ///< number of its first vertex
+  std::array<std::int64_t, 3> Lower{};
+  std::array<int, 3> Shift{};          ///< steps are 2^Shift
+  std::array<std::int64_t, 3> Count{}; ///< vertices along the directions
+};
+
+/// Vertices on the borders of elements, by position: by their places on lattices, where charts have
+/// these, else in an open hash table with linear probing.
 class VertexTable
 {
 public:
+  /// @param lattices  of all charts, or none. @param count  vertices of all lattices.
+  explicit VertexTable(std::vector<ChartLattice> lattices = {}, int count = 0)
+    : Sets(count), Lattices(std::move(lattices))
+  {
+  }
   /// Vertex at a position, made when it is new.
   int NumberOf(const ChartPoint& point);
   DisjointSets Sets;
@@ -40,6 +55,7 @@ private:
   void Grow();
   std::size_t Place(const ChartPoint& point) const;
 
+  std::vector<ChartLattice> Lattices;
   std::vector<ChartPoint> Points; ///< of all vertices
   std::vector<int> Slots;         ///< -1: free; a power of two, at most half of them taken
 };
@@ -112,6 +128,8 @@ public:
   /// @return how many vertices the cut has, those within included.
   virtual std::int64_t Border(std::size_t cut, std::vector<BorderVertex>& border) const = 0;
   virtual void Make(std::size_t cut, Cut& made) const = 0;
+  /// Where all vertices are.
+  virtual VertexTable MakeTable() const { return VertexTable(); }
   /// Makes one of vertices where elements meet and where sides are points.
   virtual void Unite(VertexTable& vertices) const = 0;
 };
