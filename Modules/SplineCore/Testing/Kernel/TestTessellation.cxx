@@ -134,9 +134,9 @@ TEST(Tessellate, DeviationOfSphereAndTorusIsBelowTolerance_ExactOracle)
 {
   for (const double tolerance : { 1e-1, 1e-2, 1e-3 })
   {
-    for (const auto& [kind, distance] : { std::pair{ ShapeKind::SphereSurface, SphereDistance },
-           std::pair{ ShapeKind::PolarSphereSurface, SphereDistance },
-           std::pair{ ShapeKind::TorusSurface, TorusDistance } })
+    for (const auto& [kind, distance] : { std::pair{ ShapeKind::SphereSurface, &SphereDistance },
+           std::pair{ ShapeKind::PolarSphereSurface, &SphereDistance },
+           std::pair{ ShapeKind::TorusSurface, &TorusDistance } })
     {
       SCOPED_TRACE(std::string(ToString(kind)) + " " + std::to_string(tolerance));
       const auto mesh = Tessellate<2>(Forms<2>(Shape(kind)), Tolerance(tolerance));
