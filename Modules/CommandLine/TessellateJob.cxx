@@ -114,7 +114,7 @@ struct TessellateJob
       Processes::Count() > 1 && !vtkPartitionedDataSetCollection::SafeDownCast(input.Value);
     if (isByParts)
     {
-      this->Filter->SetPart(Processes::Own(), Processes::Count());
+      this->Filter->SetPart(Processes::Own(), Processes::Count(), true);
     }
     this->Filter->SetInputDataObject(isByParts ? input.Value : ShareOf(input.Value, Share::Blocks));
     session.Report["input"] = this->Input;

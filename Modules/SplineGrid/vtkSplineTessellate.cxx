@@ -2,6 +2,7 @@
 #include "vtkSplineTessellate.h"
 
 #include "NamedArray.h"
+#include "Processes.h"
 #include "ReferenceSystem.h"
 #include "SplineBlocks.h"
 #include "SplineModel.h"
@@ -29,8 +30,10 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <map>
 #include <string>
+#include <type_traits>
 #include <variant>
 #include <vector>
 
@@ -267,6 +270,50 @@ private:
   std::vector<Part> Parts;
 };
 
+/// What the processes tell each other while they make a part each: once in every dimension.
+class PartExchange
+{
+public:
+  std::vector<double> operator()(const std::vector<double>& own)
+  {
+    this->IsDone = true;
+    std::vector<double> all;
+    for (const std::vector<double>& values : knotwork::Processes::Exchange(own))
+    {
+      all.insert(all.end(), values.begin(), values.end());
+    }
+    return all;
+  }
+  /// For those that wait, though this one has nothing to tell.
+  void Finish()
+  {
+    if (!this->IsDone)
+    {
+      (*this)({});
+    }
+  }
+
+private:
+  bool IsDone = false;
+};
+
+/// The outcome of what all processes do at once.
+Status InAll(const std::function<Status(PartExchange&)>& work)
+{
+  PartExchange exchange;
+  Status own;
+  try
+  {
+    own = work(exchange);
+  }
+  catch (...)
+  {
+    own = knotwork::StatusOfException();
+  }
+  exchange.Finish();
+  return knotwork::Processes::Agree(own);
+}
+
 /// Tessellates the patches with Dim parameters.
 template <int Dim>
 Status TessellateDimension(const std::vector<const SplinePatch*>& patches,
@@ -453,10 +500,11 @@ vtkSplineTessellate::vtkSplineTessellate()
   knotwork::KeepReferenceSystem(this);
 }
 
-void vtkSplineTessellate::SetPart(int part, int parts)
+void vtkSplineTessellate::SetPart(int part, int parts, bool together)
 {
   this->Part = part;
   this->Parts = parts;
+  this->Together = together;
   this->Modified();
 }
 
@@ -474,10 +522,16 @@ int vtkSplineTessellate::RequestDataObject(
 Status vtkSplineTessellate::Compute(vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
   vtkDataObject* input = vtkDataObject::GetData(inputs[0], 0);
-  auto model = this->DecodeInput(input);
-  if (!model)
+  knotwork::Result<knotwork::SplineModel> model;
+  const auto decode = [&](PartExchange&)
   {
+    model = this->DecodeInput(input);
     return model.Status;
+  };
+  PartExchange none;
+  if (Status status = this->Together ? InAll(decode) : decode(none); !status)
+  {
+    return status;
   }
   return knotwork::MakeByBlock(model.Value, input, vtkDataObject::GetData(outputs),
     this->Cells == VOLUME ? VTK_UNSTRUCTURED_GRID : VTK_POLY_DATA,
@@ -507,9 +561,24 @@ Status vtkSplineTessellate::Compute(vtkInformationVector** inputs, vtkInformatio
       params.Threads = this->KernelThreads();
       params.Progress = this->Progress();
       BlockMesh block(params.Threads);
-      Status status = TessellateDimension<1>(patches, params, block);
-      status = status ? TessellateDimension<2>(patches, params, block) : status;
-      status = status ? TessellateDimension<3>(patches, params, block) : status;
+      Status status;
+      const auto tessellate = [&](const auto& dimension)
+      {
+        constexpr int dim = std::decay_t<decltype(dimension)>::value;
+        if (!status || !this->Together)
+        {
+          return status ? TessellateDimension<dim>(patches, params, block) : status;
+        }
+        return InAll(
+          [&](PartExchange& exchange)
+          {
+            params.Exchange = std::ref(exchange);
+            return TessellateDimension<dim>(patches, params, block);
+          });
+      };
+      status = tessellate(std::integral_constant<int, 1>());
+      status = tessellate(std::integral_constant<int, 2>());
+      status = tessellate(std::integral_constant<int, 3>());
       if (!status)
       {
         return status;

@@ -91,8 +91,10 @@ public:
    * made, for programs of several processes that all have the whole input. Parts one after the
    * other are the whole, bit for bit: points of parts before come last, and all have the numbers of
    * the whole as global ids, the array GlobalPointIds; the field array PointsByDimension has how
-   * many of them are of curves, of surfaces and of solids. Default 0 of 1, without these. */
-  void SetPart(int part, int parts);
+   * many of them are of curves, of surfaces and of solids. Default 0 of 1, without these.
+   * @param together  the other parts are made at the same time by the other processes of VTK's
+   * global controller, and they share the work on bounds; fails where one of them does. */
+  void SetPart(int part, int parts, bool together = false);
   static const char* PointsByDimension() { return "PointsByDimension"; }
 
 protected:
@@ -116,5 +118,6 @@ private:
   bool Splitting = false;
   int Part = 0;
   int Parts = 1;
+  bool Together = false;
 };
 #endif

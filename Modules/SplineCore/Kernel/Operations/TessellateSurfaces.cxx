@@ -455,23 +455,20 @@ public:
   {
     int numCharts = 0;
     this->Faces = MakeFaces(patches, numCharts);
-    std::vector<double> bounds(this->Faces.size());
-    ParallelFor(this->Faces.size(), 64, params.Threads,
-      [&](std::size_t begin, std::size_t end)
-      {
-        for (std::size_t f = begin; f < end; ++f)
-        {
-          Face& face = this->Faces[f];
-          const auto bound = FaceBound<Dim>(patches[At(face.Patch)], face);
-          face.Halvings =
-            HalvingsForTolerance<2>(bound, params.Tolerance, params.MaximumSubdivision);
-          bounds[f] = ChordalBound<2>(bound, face.Halvings);
-        }
-      });
+    const auto bounds = FindBounds<2>(this->Faces.size(), params,
+      [&](std::size_t f)
+      { return FaceBound<Dim>(patches[At(this->Faces[f].Patch)], this->Faces[f]); });
+    if (!bounds)
+    {
+      return bounds.Status;
+    }
     double count = 0.0;
     for (std::size_t f = 0; f < this->Faces.size(); ++f)
     {
-      mesh.Bound = std::max(mesh.Bound, bounds[f]);
+      const SecondDerivativeBound<2>& bound = bounds.Value[f];
+      Face& face = this->Faces[f];
+      face.Halvings = HalvingsForTolerance<2>(bound, params.Tolerance, params.MaximumSubdivision);
+      mesh.Bound = std::max(mesh.Bound, ChordalBound<2>(bound, face.Halvings));
       count += this->NumCells(f);
     }
     if (Status status = CheckSize(count, params.MaxCells, "polygons", "MaximumCells"); !status)

@@ -57,43 +57,41 @@ public:
     }
   }
 
-  double ChooseLevels()
+  /// @return the largest chordal deviation.
+  Result<double> ChooseLevels()
   {
-    this->Levels.assign(At(this->NumCharts), { 0, 0, 0 });
-    std::vector<std::vector<SecondDerivativeBound<3>>> bounds(this->Patches.size());
-    for (std::size_t p = 0; p < this->Patches.size(); ++p)
-    {
-      const BezierForm<3>& form = this->Patches[p];
-      bounds[p].resize(this->Cells[p].size());
-      ParallelFor(bounds[p].size(), 16, this->Params.Threads,
-        [&](std::size_t begin, std::size_t end)
-        {
-          for (std::size_t e = begin; e < end; ++e)
-          {
-            bounds[p][e] = BoundSecondDerivatives<3>(form.Space->Elements[e].Degree,
-              form.NumComponents, form.Rational, form.Block(static_cast<int>(e)));
-          }
-        });
-      for (std::size_t e = 0; e < bounds[p].size(); ++e)
+    const auto bounds = FindBounds<3>(this->Count(), this->Params,
+      [this](std::size_t cut)
       {
-        const IntArray<3> halvings = HalvingsForTolerance<3>(
-          bounds[p][e], this->Params.Tolerance, this->Params.MaximumSubdivision);
-        auto& levels = this->Levels[At(this->Cells[p][e].Chart)];
-        for (std::size_t d = 0; d < 3; ++d)
-        {
-          levels[d] = std::max(levels[d], this->Cells[p][e].Level + halvings[d]);
-        }
+        const CutElement element = this->ElementOf(cut);
+        const BezierForm<3>& form = this->Patches[At(element.Patch)];
+        return BoundSecondDerivatives<3>(form.Space->Elements[At(element.Element)].Degree,
+          form.NumComponents, form.Rational, form.Block(element.Element));
+      });
+    if (!bounds)
+    {
+      return bounds.Status;
+    }
+    this->Levels.assign(At(this->NumCharts), { 0, 0, 0 });
+    for (std::size_t cut = 0; cut < this->Count(); ++cut)
+    {
+      const CutElement element = this->ElementOf(cut);
+      const ChartCell<3>& cell = this->Cell(element.Patch, element.Element);
+      const IntArray<3> halvings = HalvingsForTolerance<3>(
+        bounds.Value[cut], this->Params.Tolerance, this->Params.MaximumSubdivision);
+      auto& levels = this->Levels[At(cell.Chart)];
+      for (std::size_t d = 0; d < 3; ++d)
+      {
+        levels[d] = std::max(levels[d], cell.Level + halvings[d]);
       }
     }
     this->MatchFaces();
     double largest = 0.0;
-    for (std::size_t p = 0; p < this->Patches.size(); ++p)
+    for (std::size_t cut = 0; cut < this->Count(); ++cut)
     {
-      for (std::size_t e = 0; e < bounds[p].size(); ++e)
-      {
-        largest = std::max(largest,
-          ChordalBound<3>(bounds[p][e], this->Halvings(static_cast<int>(p), static_cast<int>(e))));
-      }
+      const CutElement element = this->ElementOf(cut);
+      largest = std::max(largest,
+        ChordalBound<3>(bounds.Value[cut], this->Halvings(element.Patch, element.Element)));
     }
     return largest;
   }
@@ -390,7 +388,12 @@ Status TessellateVolumes(const std::vector<BezierForm<3>>& patches,
   const TessellationParams& params, TessellationMesh& mesh)
 {
   VolumeCuts cuts(patches, params);
-  mesh.Bound = cuts.ChooseLevels();
+  const auto largest = cuts.ChooseLevels();
+  if (!largest)
+  {
+    return largest.Status;
+  }
+  mesh.Bound = largest.Value;
   double count = 0.0;
   for (std::size_t cut = 0; cut < cuts.Count(); ++cut)
   {

@@ -3,6 +3,7 @@
 #include <knotwork/SplineCore/BezierForm.h>
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 namespace knotwork
@@ -32,6 +33,11 @@ struct TessellationParams
   /// after the other, are what one part is, bit for bit. Each costs the work on borders of all.
   int Part = 0;
   int Parts = 1;
+  /// Where all parts are made at once, by processes that tell each other: what the parts give, one
+  /// after the other, to each of them. Each calls it once at most (curves do not), not at all where
+  /// it has failed before; fewer values than theirs end the others. Without it each part finds the
+  /// bounds of all elements itself.
+  std::function<std::vector<double>(const std::vector<double>&)> Exchange;
   int Threads = 0;
   ProgressCallback Progress;
 };

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "TessellationParts.h"
 
+#include "Parallel.h"
 #include "SpaceFamily.h"
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace knotwork
 {
@@ -92,6 +94,39 @@ void SideMatcher::Add(const PatchSide& side, const std::array<std::int64_t, 2>& 
   this->Sides.Add(side, count, numbers);
 }
 
+template <int K>
+Result<std::vector<SecondDerivativeBound<K>>> FindBounds(std::size_t count,
+  const TessellationParams& params,
+  const std::function<SecondDerivativeBound<K>(std::size_t)>& boundOf)
+{
+  constexpr std::size_t size = std::tuple_size_v<SecondDerivativeBound<K>>;
+  std::vector<SecondDerivativeBound<K>> bounds(count);
+  const auto part = static_cast<std::size_t>(params.Part);
+  const auto parts = static_cast<std::size_t>(params.Parts);
+  const std::size_t first = params.Exchange ? count * part / parts : 0;
+  const std::size_t last = params.Exchange ? count * (part + 1) / parts : count;
+  ParallelFor(last - first, 16, params.Threads,
+    [&](std::size_t begin, std::size_t end)
+    {
+      for (std::size_t i = first + begin; i < first + end; ++i)
+      {
+        bounds[i] = boundOf(i);
+      }
+    });
+  if (params.Exchange)
+  {
+    double* values = bounds.empty() ? nullptr : bounds.front().data();
+    const std::vector<double> all =
+      params.Exchange(std::vector<double>(values + first * size, values + last * size));
+    if (all.size() != count * size)
+    {
+      return { ErrorCode::Aborted, "" };
+    }
+    std::copy(all.begin(), all.end(), values);
+  }
+  return bounds;
+}
+
 template <int Dim>
 double LargestValue(const std::vector<BezierForm<Dim>>& patches)
 {
@@ -157,6 +192,10 @@ template std::vector<std::vector<ChartCell<2>>> MakeCharts<2>(
   const std::vector<BezierForm<2>>&, int&);
 template std::vector<std::vector<ChartCell<3>>> MakeCharts<3>(
   const std::vector<BezierForm<3>>&, int&);
+template Result<std::vector<SecondDerivativeBound<2>>> FindBounds<2>(std::size_t,
+  const TessellationParams&, const std::function<SecondDerivativeBound<2>(std::size_t)>&);
+template Result<std::vector<SecondDerivativeBound<3>>> FindBounds<3>(std::size_t,
+  const TessellationParams&, const std::function<SecondDerivativeBound<3>(std::size_t)>&);
 template double LargestValue<1>(const std::vector<BezierForm<1>>&);
 template double LargestValue<2>(const std::vector<BezierForm<2>>&);
 template double LargestValue<3>(const std::vector<BezierForm<3>>&);

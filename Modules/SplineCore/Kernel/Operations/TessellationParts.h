@@ -3,6 +3,7 @@
 // what elements are cut into.
 #pragma once
 #include "ChartCell.h"
+#include "ChordalBound.h"
 #include "DisjointSets.h"
 #include "MultiPatch.h"
 #include "PointClusters.h"
@@ -83,6 +84,14 @@ private:
 /// Largest magnitude in the data of all patches.
 template <int Dim>
 double LargestValue(const std::vector<BezierForm<Dim>>& patches);
+
+/// Bounds of the second derivatives of what is cut, by its number; parts that tell each other find
+/// a share of them each.
+/// @return in all parts alike Aborted, where one gave fewer than its share.
+template <int K>
+Result<std::vector<SecondDerivativeBound<K>>> FindBounds(std::size_t count,
+  const TessellationParams& params,
+  const std::function<SecondDerivativeBound<K>(std::size_t)>& boundOf);
 
 /// What is cut into cells: an element, or a face of one.
 struct CutElement

@@ -466,10 +466,10 @@ TEST(Tessellate, ProgressGrows_PropertyOracle)
 
 /// Joins the parts of a tessellation: what comes one after the other, and points by their numbers.
 template <int Dim>
-void ExpectPartsAreTheWhole(
-  const std::vector<BezierForm<Dim>>& forms, TessellationParams params, int parts)
+void ExpectPartsAreTheWhole(const std::vector<BezierForm<Dim>>& forms, TessellationParams params,
+  int parts, const TessellationParams& ofWhole)
 {
-  const auto whole = Tessellate<Dim>(forms, params);
+  const auto whole = Tessellate<Dim>(forms, ofWhole);
   ASSERT_TRUE(whole);
   TessellationMesh joined;
   joined.Offsets.push_back(0);
@@ -522,6 +522,55 @@ void ExpectPartsAreTheWhole(
   EXPECT_EQ(joined.CellSide, whole->CellSide);
 }
 
+/// The bounds that the parts tell each other, as every part makes them first.
+template <int Dim>
+std::vector<double> BoundsOfParts(
+  const std::vector<BezierForm<Dim>>& forms, TessellationParams params, int parts)
+{
+  std::vector<double> all;
+  params.Parts = parts;
+  for (params.Part = 0; params.Part < parts; ++params.Part)
+  {
+    params.Exchange = [&](const std::vector<double>& own)
+    {
+      all.insert(all.end(), own.begin(), own.end());
+      return std::vector<double>(); // the others have failed
+    };
+    EXPECT_EQ(Tessellate<Dim>(forms, params).Status.Code, ErrorCode::Aborted);
+  }
+  return all;
+}
+
+template <int Dim>
+void ExpectPartsThatShareBoundsAreTheWhole(
+  const std::vector<BezierForm<Dim>>& forms, TessellationParams params, int parts)
+{
+  const std::vector<double> bounds = BoundsOfParts<Dim>(forms, params, parts);
+  std::size_t told = 0;
+  params.Exchange = [&](const std::vector<double>& own)
+  {
+    told += own.size();
+    return bounds;
+  };
+  auto whole = params;
+  whole.Exchange = nullptr;
+  ExpectPartsAreTheWhole<Dim>(forms, params, parts, whole);
+  EXPECT_EQ(told, bounds.size()); // each part has made its share alone
+}
+
+TEST(Tessellate, PartsThatShareBoundsAreTheWhole_ExactOracle)
+{
+  for (const int parts : { 2, 3, 40 })
+  {
+    TessellationParams params = Tolerance(3e-2);
+    ExpectPartsThatShareBoundsAreTheWhole<2>(
+      Forms<2>(Shape(ShapeKind::TorusSurface)), params, parts);
+    ExpectPartsThatShareBoundsAreTheWhole<3>(Forms<3>(Shape(ShapeKind::Ball)), params, parts);
+    params.Output = TessellationOutput::Volume;
+    ExpectPartsThatShareBoundsAreTheWhole<3>(Forms<3>(Shape(ShapeKind::Ball)), params, parts);
+  }
+}
+
 TEST(Tessellate, PartsAreTheWhole_ExactOracle)
 {
   for (const int parts : { 2, 3, 40 }) // more than there are elements, too
@@ -530,12 +579,13 @@ TEST(Tessellate, PartsAreTheWhole_ExactOracle)
     {
       TessellationParams params = Tolerance(3e-2);
       params.Splitting = splits;
-      ExpectPartsAreTheWhole<1>(Forms<1>(Shape(ShapeKind::Arc)), params, parts);
-      ExpectPartsAreTheWhole<2>(Forms<2>(Shape(ShapeKind::TorusSurface)), params, parts);
-      ExpectPartsAreTheWhole<2>(Forms<2>(Shape(ShapeKind::PolarSphereSurface)), params, parts);
-      ExpectPartsAreTheWhole<3>(Forms<3>(Shape(ShapeKind::Ball)), params, parts);
+      ExpectPartsAreTheWhole<1>(Forms<1>(Shape(ShapeKind::Arc)), params, parts, params);
+      ExpectPartsAreTheWhole<2>(Forms<2>(Shape(ShapeKind::TorusSurface)), params, parts, params);
+      ExpectPartsAreTheWhole<2>(
+        Forms<2>(Shape(ShapeKind::PolarSphereSurface)), params, parts, params);
+      ExpectPartsAreTheWhole<3>(Forms<3>(Shape(ShapeKind::Ball)), params, parts, params);
       params.Output = TessellationOutput::Volume;
-      ExpectPartsAreTheWhole<3>(Forms<3>(Shape(ShapeKind::Ball)), params, parts);
+      ExpectPartsAreTheWhole<3>(Forms<3>(Shape(ShapeKind::Ball)), params, parts, params);
     }
   }
 }
