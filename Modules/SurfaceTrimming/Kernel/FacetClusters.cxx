@@ -145,4 +145,27 @@ FacetClusters FindFacetClusters(const DiscMesh& surface, double flatness)
   }
   return result;
 }
+
+std::vector<int> CountPointsInside(
+  const FacetClusters& facets, const std::vector<int>& regionOfCluster, std::size_t numRegions)
+{
+  std::map<int, int> regionOfPoint; // -1: of several
+  for (std::size_t c = 0; c < facets.Clusters.size(); ++c)
+  {
+    for (const int p : facets.Clusters[c].Points)
+    {
+      const auto [at, isNew] = regionOfPoint.emplace(p, regionOfCluster[c]);
+      at->second = isNew || at->second == regionOfCluster[c] ? at->second : -1;
+    }
+  }
+  std::vector<int> counts(numRegions, 0);
+  for (const auto& [point, region] : regionOfPoint)
+  {
+    if (region >= 0)
+    {
+      ++counts[static_cast<std::size_t>(region)];
+    }
+  }
+  return counts;
+}
 }

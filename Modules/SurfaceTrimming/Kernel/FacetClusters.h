@@ -34,4 +34,9 @@ struct FacetClusters
 /// @param flatness  largest distance of a cluster's points from its plane.
 /// @complexity O(n log n).
 FacetClusters FindFacetClusters(const DiscMesh& surface, double flatness);
+
+/// How many points of every region lie in no other one. A single row of facets has none.
+/// @param regionOfCluster  one a cluster, in [0, numRegions).
+std::vector<int> CountPointsInside(
+  const FacetClusters& facets, const std::vector<int>& regionOfCluster, std::size_t numRegions);
 }

@@ -49,7 +49,7 @@ public:
       RegionOfCluster(regionOfCluster)
   {
     this->IsFlat.assign(facets.Clusters.size(), 0);
-    const std::vector<char> isInside = this->FindInside();
+    const std::vector<int> numInside = CountPointsInside(facets, regionOfCluster, regions.size());
     for (std::size_t r = 0; r < regions.size(); ++r)
     {
       const GrownRegion& region = regions[r];
@@ -67,7 +67,7 @@ public:
       const bool isFew = region.NumPoints < FewPoints;
       const bool isDoubtful = isFar || (!isPlane && isFew && isInexact);
       // all points of a single row of facets lie in others, too, and on surfaces of many types
-      const bool isVague = isDoubtful || isInexact || (!isPlane && !isInside[r]);
+      const bool isVague = isDoubtful || isInexact || (!isPlane && numInside[r] == 0);
       const bool isPieces = kind == JoinKind::Pieces;
       this->IsDoubtful.push_back(isDoubtful ? 1 : 0);
       this->IsSeed.push_back((isPieces ? isVague : isDoubtful && !isPlane) ? 1 : 0);
@@ -97,29 +97,6 @@ public:
   }
 
 private:
-  /// Whether regions have points that lie in no other one.
-  std::vector<char> FindInside() const
-  {
-    std::map<int, int> regionOfPoint; // -1: of several
-    for (std::size_t c = 0; c < this->Facets.Clusters.size(); ++c)
-    {
-      for (const int p : this->Facets.Clusters[c].Points)
-      {
-        const auto [at, isNew] = regionOfPoint.emplace(p, this->RegionOfCluster[c]);
-        at->second = isNew || at->second == this->RegionOfCluster[c] ? at->second : -1;
-      }
-    }
-    std::vector<char> isInside(this->Regions.size(), 0);
-    for (const auto& [point, region] : regionOfPoint)
-    {
-      if (region >= 0)
-      {
-        isInside[At(region)] = 1;
-      }
-    }
-    return isInside;
-  }
-
   /// Neighbours across smooth borders, those of the longest ones first.
   std::vector<int> NeighboursOf(const GrownRegion& region, int number) const
   {

@@ -210,7 +210,7 @@ void SurfaceGrowth::Flatten(GrownRegion& region) const
   }
 }
 
-void SurfaceGrowth::Reconsider(GrownRegion& region) const
+void SurfaceGrowth::Reconsider(bool isSingleRow, GrownRegion& region) const
 {
   constexpr double MuchNearer = 0.5;
   if (region.Surface.Type == SurfaceType::Plane || region.Surface.Type == SurfaceType::FreeForm ||
@@ -237,7 +237,9 @@ void SurfaceGrowth::Reconsider(GrownRegion& region) const
       continue;
     }
     other.MeanSag = this->MeanSag(other);
-    const double share = type < region.Surface.Type ? 1.0 : MuchNearer;
+    const bool isLikelier = type < region.Surface.Type ||
+      (isSingleRow && type == SurfaceType::Cone && region.Surface.Type == SurfaceType::Sphere);
+    const double share = isLikelier ? 1.0 : MuchNearer;
     if (other.MeanSag <= share * region.MeanSag)
     {
       region = std::move(other);

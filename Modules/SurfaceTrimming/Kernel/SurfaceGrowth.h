@@ -40,7 +40,9 @@ public:
   /// Takes a cylinder, sphere or cone that the region lies on as well, if it is simpler than its
   /// surface and the edges inside are no farther from it, or a cone to which they are much nearer:
   /// a strip between two circles lies on many surfaces, but is straight on one.
-  void Reconsider(GrownRegion& region) const;
+  /// @param isSingleRow  all points lie in other regions, too: a chamfer rather than a zone of a
+  /// sphere, so a cone to which the edges are no farther is enough.
+  void Reconsider(bool isSingleRow, GrownRegion& region) const;
   /// Takes the surface of a profile next to the region's points.
   /// @param flat  a flag a cluster of all: it is part of a flat face, so that its edges lie on the
   /// surface. @return false: there is none on which all clusters lie; the region is as it was.

@@ -3,6 +3,7 @@
 #include "TessellationPlaces.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <string>
 
@@ -115,6 +116,19 @@ private:
             counts[i] = this->Cuts.Border(first + i, borders[i]);
           }
         });
+      std::size_t found = 0;
+      for (std::size_t i = 0; i < count; ++i)
+      {
+        found += borders[i].size();
+      }
+      if (this->Uses.size() + found > this->Uses.capacity())
+      {
+        // as if all that follow had as many: doubling would take up to three times the memory
+        const double times =
+          static_cast<double>(this->Cuts.Count() - first) / static_cast<double>(count);
+        this->Uses.reserve(this->Uses.size() +
+          static_cast<std::size_t>(std::ceil(times * static_cast<double>(found))));
+      }
       for (std::size_t i = 0; i < count; ++i)
       {
         constexpr std::int64_t most = std::numeric_limits<int>::max();
@@ -226,6 +240,11 @@ private:
   {
     this->PointOf.assign(this->Wanted.size(), -1);
     this->CopiesOf.assign(this->Params.Splitting ? this->Wanted.size() : 0, {});
+    const auto numWanted =
+      static_cast<std::size_t>(std::count(this->Wanted.begin(), this->Wanted.end(), true));
+    this->BorderPoints.reserve(numWanted); // copies apart
+    this->Values.reserve(numWanted * At(this->Components));
+    this->BorderNormals.reserve(this->Normals ? numWanted : 0);
     std::vector<std::int64_t> uses;
     for (std::size_t cut = 0; cut < this->Cuts.Count(); ++cut)
     {
