@@ -113,9 +113,11 @@ def polygon(occ, draw):
     corners = [occ.addPoint(u, v, 0) for u, v in points]
     lines = [occ.addLine(corners[i], corners[(i + 1) % n]) for i in range(1, n)]
     (a, b), (c, d) = points[0], points[1]
-    bulge = draw.uniform(1.05, 1.3)
-    top = occ.addPoint(0.5 * bulge * (a + c), 0.5 * bulge * (b + d), 0)
-    lines.insert(0, occ.addCircleArc(corners[0], top, corners[1], center=False))
+    chord = math.hypot(c - a, d - b)
+    rise = draw.uniform(0.1, 0.45) * chord
+    inward = (0.25 * chord ** 2 - rise ** 2) / (2 * rise)  # of the circle's middle from the chord
+    middle = occ.addPoint(0.5 * (a + c) - inward * (d - b) / chord, 0.5 * (b + d) + inward * (c - a) / chord, 0)
+    lines.insert(0, occ.addCircleArc(corners[0], middle, corners[1]))
     face = (2, occ.addPlaneSurface([occ.addCurveLoop(lines)]))
     body = [d for d in occ.extrude([face], 0, 0, draw.uniform(5, 30)) if d[0] == 3]
     occ.cut(body, [(3, occ.addCylinder(0, 0, -1, 0, 0, 40, draw.uniform(2, 7)))])

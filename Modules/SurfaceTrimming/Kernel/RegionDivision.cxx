@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 
 namespace knotwork
@@ -16,6 +17,8 @@ constexpr double BetterShare = 0.5;
 constexpr int BorderPasses = 6;
 constexpr double LargestTurn = 1.0471975511965976; // 60 degrees
 constexpr std::size_t FirstRegions = 200;
+/// Of the clusters of a region that becomes one with another: those that go elsewhere.
+constexpr double LargestShareLeft = 0.25;
 
 /// Clusters beside another region go over to it where they lie on it much better: what was grown
 /// first has taken what lies within the noise, as the first strips of a fillet.
@@ -75,6 +78,42 @@ bool IsCurved(SurfaceType type)
   return type != SurfaceType::Plane && type != SurfaceType::FreeForm;
 }
 
+/// For every cluster a region beside it that it fits, but two.
+/// @return fewer, if one has none.
+std::vector<int> RegionsBeside(const std::vector<int>& clusters, const SurfaceGrowth& growth,
+  const FacetClusters& facets, const std::array<int, 2>& without, const Division& division)
+{
+  std::vector<int> found;
+  for (const int cluster : clusters)
+  {
+    for (const ClusterSide& side : facets.Sides[static_cast<std::size_t>(cluster)])
+    {
+      const int number = division.RegionOfCluster[static_cast<std::size_t>(side.Cluster)];
+      const GrownRegion& region = division.Regions[static_cast<std::size_t>(number)];
+      if (std::find(without.begin(), without.end(), number) == without.end() &&
+        growth.Fits(cluster, region.Surface, region.Reversed))
+      {
+        found.push_back(number);
+        break;
+      }
+    }
+  }
+  return found;
+}
+
+/// Of the middles of edges and triangles from a surface.
+double SagOf(
+  const SurfaceGrowth& growth, const std::vector<int>& clusters, const AnalyticSurface& surface)
+{
+  GrownRegion region;
+  region.Clusters = clusters;
+  region.Surface = surface;
+  double distance = 0.0;
+  double sag = 0.0;
+  growth.Measure(region, distance, sag);
+  return sag;
+}
+
 /// Whether all points of a cluster lie on a surface, and it does not lean away from it.
 bool LiesOn(const DiscMesh& surface, const FacetCluster& cluster, const AnalyticSurface& on,
   bool reversed, double noise)
@@ -129,17 +168,21 @@ Division Divide(
   return division;
 }
 
-void TakeWideTriangles(
-  const DiscMesh& surface, const FacetClusters& facets, double noise, Division& division)
+void TakeWideTriangles(const DiscMesh& surface, const FacetClusters& facets,
+  const SurfaceGrowth& growth, double noise, Division& division)
 {
+  const auto isTriangle = [&](int c)
+  { return facets.Clusters[static_cast<std::size_t>(c)].Triangles.size() == 1; };
   for (bool any = true; any;)
   {
     any = false;
     for (std::size_t c = 0; c < facets.Clusters.size(); ++c)
     {
-      const FacetCluster& cluster = facets.Clusters[c];
       GrownRegion& own = division.Regions[static_cast<std::size_t>(division.RegionOfCluster[c])];
-      if (cluster.Triangles.size() > 1 || own.Clusters.size() > 1)
+      const bool isSingle = own.Clusters.size() == 1;
+      const bool isPair = own.Surface.Type == SurfaceType::Plane && own.NumPoints <= PointsOfFacet;
+      if (!(isSingle || isPair) ||
+        !std::all_of(own.Clusters.begin(), own.Clusters.end(), isTriangle))
       {
         continue;
       }
@@ -148,11 +191,22 @@ void TakeWideTriangles(
         const int other = division.RegionOfCluster[static_cast<std::size_t>(side.Cluster)];
         GrownRegion& region = division.Regions[static_cast<std::size_t>(other)];
         if (&region != &own && region.Clusters.size() > 1 && IsCurved(region.Surface.Type) &&
-          LiesOn(surface, cluster, region.Surface, region.Reversed, noise))
+          std::all_of(own.Clusters.begin(), own.Clusters.end(),
+            [&](int cluster)
+            {
+              return LiesOn(surface, facets.Clusters[static_cast<std::size_t>(cluster)],
+                region.Surface, region.Reversed, noise);
+            }) &&
+          (isSingle ||
+            SagOf(growth, own.Clusters, region.Surface) <=
+              SagOf(growth, region.Clusters, region.Surface) + noise))
         {
-          region.Clusters.push_back(static_cast<int>(c));
+          for (const int cluster : own.Clusters)
+          {
+            region.Clusters.push_back(cluster);
+            division.RegionOfCluster[static_cast<std::size_t>(cluster)] = other;
+          }
           own.Clusters.clear();
-          division.RegionOfCluster[c] = other;
           any = true;
           break;
         }
@@ -245,24 +299,50 @@ void ShareOut(const SurfaceGrowth& growth, const FacetClusters& facets, Division
     { return std::abs(surface.Distance(clusterOf(c).Piece.Centre)); };
     const int largest = *std::max_element(own.Clusters.begin(), own.Clusters.end(),
       [&](int a, int b) { return clusterOf(a).Area < clusterOf(b).Area; });
-    const double far = middleFrom(largest, own.Surface) / MuchNearer;
-    std::vector<std::array<int, 2>> moves; // cluster and region
-    for (const int c : own.Clusters)
+    const double far = SagOf(growth, { largest }, own.Surface) / MuchNearer;
+    std::map<int, int> moves; // cluster and region
+    const auto regionBeside = [&](int c)
     {
       for (const ClusterSide& side : facets.Sides[static_cast<std::size_t>(c)])
       {
-        const int other = division.RegionOfCluster[static_cast<std::size_t>(side.Cluster)];
+        const auto moved = moves.find(side.Cluster);
+        const int other = moved != moves.end()
+          ? moved->second
+          : division.RegionOfCluster[static_cast<std::size_t>(side.Cluster)];
         const GrownRegion& beside = division.Regions[static_cast<std::size_t>(other)];
-        if (c != largest && static_cast<std::size_t>(other) != r && side.Angle < LargestTurn &&
+        if (static_cast<std::size_t>(other) != r && side.Angle < LargestTurn &&
           IsCurved(beside.Surface.Type) && beside.NumPoints > own.NumPoints &&
           middleFrom(c, beside.Surface) < far && growth.Fits(c, beside.Surface, beside.Reversed))
         {
-          moves.push_back({ c, other });
-          break;
+          return other;
+        }
+      }
+      return -1;
+    };
+    for (std::size_t before = 1; before != moves.size();) // a strip is several facets, too
+    {
+      before = moves.size();
+      for (const int c : own.Clusters)
+      {
+        const int to = c == largest || moves.count(c) > 0 ? -1 : regionBeside(c);
+        if (to >= 0)
+        {
+          moves.emplace(c, to);
         }
       }
     }
-    if (moves.size() + 1 < own.Clusters.size())
+    GrownRegion flat = own;
+    flat.Clusters = { largest };
+    for (const int c : own.Clusters)
+    {
+      if (c != largest && moves.count(c) == 0)
+      {
+        flat.Clusters.push_back(c);
+      }
+    }
+    // noise parts a flat face into several facets
+    if (moves.empty() ||
+      (flat.Clusters.size() > 1 && !growth.FitType(SurfaceType::Plane, {}, flat)))
     {
       continue;
     }
@@ -271,7 +351,7 @@ void ShareOut(const SurfaceGrowth& growth, const FacetClusters& facets, Division
       division.RegionOfCluster[static_cast<std::size_t>(c)] = to;
       division.Regions[static_cast<std::size_t>(to)].Clusters.push_back(c);
     }
-    division.Regions[r].Clusters = { largest };
+    division.Regions[r] = std::move(flat);
   }
 }
 
@@ -307,18 +387,30 @@ void JoinEqual(const DiscMesh& surface, const FacetClusters& facets, double nois
             on.Reversed, noise);
         };
       };
-      if (!std::all_of(other.Clusters.begin(), other.Clusters.end(), liesOn(region)))
+      // with noise a few may be those of a third region: the first strips of a fillet
+      const auto notOn =
+        std::stable_partition(other.Clusters.begin(), other.Clusters.end(), liesOn(region));
+      const std::vector<int> left(notOn, other.Clusters.end());
+      const std::vector<int> homes = RegionsBeside(left, growth, facets, { to, from }, division);
+      const bool isMost = LargestShareLeft * static_cast<double>(other.Clusters.size()) >=
+        static_cast<double>(left.size());
+      if (homes.size() < left.size() || !isMost || (exact && !left.empty()))
       {
         continue;
       }
       GrownRegion joined = region;
-      joined.Clusters.insert(joined.Clusters.end(), other.Clusters.begin(), other.Clusters.end());
+      joined.Clusters.insert(joined.Clusters.end(), other.Clusters.begin(), notOn);
       growth.Refit(joined);
       if (std::all_of(joined.Clusters.begin(), joined.Clusters.end(), liesOn(joined)))
       {
-        for (int cluster : other.Clusters)
+        for (auto cluster = other.Clusters.begin(); cluster != notOn; ++cluster)
         {
-          division.RegionOfCluster[static_cast<std::size_t>(cluster)] = to;
+          division.RegionOfCluster[static_cast<std::size_t>(*cluster)] = to;
+        }
+        for (std::size_t i = 0; i < left.size(); ++i)
+        {
+          division.RegionOfCluster[static_cast<std::size_t>(left[i])] = homes[i];
+          division.Regions[static_cast<std::size_t>(homes[i])].Clusters.push_back(left[i]);
         }
         other.Clusters.clear();
         region = std::move(joined);

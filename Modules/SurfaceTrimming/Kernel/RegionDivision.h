@@ -31,9 +31,10 @@ Division Divide(
   const SurfaceGrowth& growth, const FacetClusters& facets, const DivisionLimits& limits);
 
 /// Triangles that are planes of their own for they sag too much, and whose corners lie on the
-/// surface of a neighbour, go over to it: wide triangles between the holes of a cylinder.
-void TakeWideTriangles(
-  const DiscMesh& surface, const FacetClusters& facets, double noise, Division& division);
+/// surface of a neighbour, go over to it: wide triangles between the holes of a cylinder. So do two
+/// that noise makes one plane, where others of that surface sag as much: no flat on a shaft.
+void TakeWideTriangles(const DiscMesh& surface, const FacetClusters& facets,
+  const SurfaceGrowth& growth, double noise, Division& division);
 
 /// Planes of four points say nothing where these are as near to the surface beside them as its own:
 /// single strips that seemed flat.
@@ -47,8 +48,8 @@ void FlattenSingles(const FacetClusters& facets, Division& division);
 void FlattenDoubtful(const SurfaceGrowth& growth, Division& division);
 
 /// A flat face between two roundings and the first strips of both lie on one wide cylinder, too:
-/// where all facets but the largest lie on larger curved regions beside it, and nearer to them by
-/// much than the largest one's middle is to what it is said to lie on, they go over.
+/// where facets lie on larger curved regions beside it, and nearer to them by much than the largest
+/// one sags from what it is said to lie on, they go over if the others are flat.
 void ShareOut(const SurfaceGrowth& growth, const FacetClusters& facets, Division& division);
 
 /// Neighbours that are one surface become one region.

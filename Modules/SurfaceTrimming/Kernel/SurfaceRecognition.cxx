@@ -230,7 +230,7 @@ Result<SurfaceRecognition> RecognizeSurfaces(
     Reconsider(growth, facets, division);
     const bool exact = level <= LastOfExact;
     const double near = exact ? NearEnough * noise : noise;
-    TakeWideTriangles(surface, facets, near, division);
+    TakeWideTriangles(surface, facets, growth, near, division);
     if (!exact)
     {
       FlattenDoubtful(growth, division);
