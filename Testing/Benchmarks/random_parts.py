@@ -173,7 +173,7 @@ def rounded(occ, draw):
 
 
 def assembly(occ, draw):
-    """Solids that touch in parts of faces: a cylinder or a block on a plate, perhaps one below."""
+    """Solids that touch in parts of faces and share none: a cylinder or a block on a plate, perhaps one below."""
     x, y, z = draw.uniform(30, 60), draw.uniform(30, 60), draw.uniform(5, 15)
     occ.addBox(0, 0, 0, x, y, z)
     if draw.random() < 0.5:
@@ -182,7 +182,6 @@ def assembly(occ, draw):
         occ.addBox(0.25 * x, 0.3 * y, z, 0.4 * x, 0.35 * y, draw.uniform(10, 30))
     if draw.random() < 0.4:
         occ.addCylinder(0.3 * x, 0.5 * y, -20, 0, 0, 20, draw.uniform(0.1, 0.25) * min(x, y))
-    occ.fragment(gmsh.model.occ.getEntities(3), [])
 
 
 def bent(occ, draw):

@@ -206,8 +206,7 @@ Result<SurfaceRecognition> RecognizeSurfaces(
   {
     return { ErrorCode::NotInSpace,
       "at most one of 64 places of the mesh is on a plane, cylinder, sphere, cone or torus: it is "
-      "a "
-      "free shape" };
+      "a free shape" };
   }
   // The coarsest level comes first: it says how many regions the others may have to be taken.
   constexpr std::size_t coarsest = Levels.size() - 1;
@@ -248,6 +247,8 @@ Result<SurfaceRecognition> RecognizeSurfaces(
         JoinPieces(loose, facets, result.Tolerance, division.Regions, division.RegionOfCluster);
         DropEmpty(division);
         MoveBorders(growth, facets, division);
+        ShareOut(growth, facets, division); // to what was in pieces before
+        FlattenSingles(facets, division);
       }
     }
     return true;
