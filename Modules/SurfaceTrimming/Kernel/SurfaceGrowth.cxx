@@ -104,15 +104,27 @@ std::vector<FlatPiece> SurfaceGrowth::PiecesOf(const std::vector<int>& clusters)
   return pieces;
 }
 
+bool SurfaceGrowth::IsWithin(int cluster, const AnalyticSurface& surface, double distance) const
+{
+  const auto& points = this->Facets.Clusters[static_cast<std::size_t>(cluster)].Points;
+  return std::all_of(points.begin(), points.end(),
+    [&](int p) { return std::abs(surface.Distance(this->Surface.Point(p))) <= distance; });
+}
+
+bool SurfaceGrowth::IsSliver(int cluster) const
+{
+  const auto& triangles = this->Facets.Clusters[static_cast<std::size_t>(cluster)].Triangles;
+  return std::all_of(triangles.begin(), triangles.end(),
+    [&](int t)
+    { return this->Facets.Heights[static_cast<std::size_t>(t)] < HeightOfSliver * this->Noise; });
+}
+
 bool SurfaceGrowth::Fits(int number, const AnalyticSurface& surface, bool reversed) const
 {
   const FacetCluster& cluster = this->Facets.Clusters[static_cast<std::size_t>(number)];
-  for (int p : cluster.Points)
+  if (!this->IsWithin(number, surface, this->Noise))
   {
-    if (!(std::abs(surface.Distance(this->Surface.Point(p))) <= this->Noise))
-    {
-      return false;
-    }
+    return false;
   }
   const double lean = std::cos(LargestLean);
   for (int t : cluster.Triangles)

@@ -29,6 +29,10 @@ public:
   /// Largest distances of points, and of the middles of edges and triangles.
   void Measure(const GrownRegion& region, double& distance, double& sag) const;
 
+  /// Whether the points of a cluster are as near to a surface.
+  bool IsWithin(int cluster, const AnalyticSurface& surface, double distance) const;
+  /// Whether the facets of a cluster are so flat that their normals say nothing.
+  bool IsSliver(int cluster) const;
   /// Whether a cluster may lie on a surface.
   bool Fits(int cluster, const AnalyticSurface& surface, bool reversed) const;
   /// How badly it does: mean square distance of its points, and what its lean adds.

@@ -335,7 +335,7 @@ TEST(RecognizedParts, FacesOfTessellatedPartsComeBack_IndependentOracle)
 /// Noise of a quarter of the tolerance.
 TEST(RecognizedParts, FacesOfNoisyParts_IndependentOracle)
 {
-  EXPECT_GE(CountFamily(60, 0.25).Share(), 0.94);
+  EXPECT_GE(CountFamily(60, 0.25).Share(), 0.975);
 }
 
 namespace
