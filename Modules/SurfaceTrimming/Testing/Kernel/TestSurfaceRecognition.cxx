@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Oracle: surfaces whose points are computed from their parameters.
 #include "ProfiledMeshes.h"
+#include "RegionDivision.h"
 #include "SurfaceRecognition.h"
 #include <knotwork/SplineCore/FitAnalyticSurface.h>
 
@@ -224,6 +225,70 @@ TEST(SurfaceRecognition, ShortCylinderIsNoSphere)
   const auto result =
     Recognize(Turned({ 0, 0 }, { { { 1, 0 } }, { { 1, 0.1 } }, { { 0, 0.1 } } }, 48));
   EXPECT_EQ(result.NumOfType, (Counts{ 2, 1, 0, 0, 0, 0 }));
+}
+
+/// A piece of a cylinder has a facet of the flat end: the cylinder takes the others, the end takes
+/// that one.
+TEST(RegionDivision, PiecesJoinWithoutWhatLiesOnAThirdSurface)
+{
+  std::mt19937 random(1);
+  TriangleMesh mesh = Turned({ 0, 0 }, { { { 1, 0 } }, { { 1, 2 } }, { { 0, 2 } } }, 48);
+  Shake(mesh, 1e-3, random);
+  const auto surface = CheckSurface(mesh);
+  ASSERT_TRUE(surface);
+  const FacetClusters facets = FindFacetClusters(surface.Value, 1e-9);
+  const SurfaceGrowth growth(surface.Value, facets, 4e-3, 2e-2);
+  enum
+  {
+    Side,
+    Piece,
+    Top,
+    Bottom
+  };
+  Division division;
+  division.Regions.resize(4);
+  const Vector3d foot(3, 1, 2);
+  const auto setSurface = [&](int region, SurfaceType type, double height, const Vector3d& axis)
+  {
+    AnalyticSurface& on = division.Regions[std::size_t(region)].Surface;
+    on.Type = type;
+    on.Point = foot + height * TiltedAxis;
+    on.Axis = axis;
+    on.Radius = 1.0;
+  };
+  setSurface(Side, SurfaceType::Cylinder, 0.0, TiltedAxis);
+  setSurface(Piece, SurfaceType::Cylinder, 0.0, TiltedAxis);
+  setSurface(Top, SurfaceType::Plane, 2.0, TiltedAxis);
+  setSurface(Bottom, SurfaceType::Plane, 0.0, -TiltedAxis);
+  const Vector3d across = TiltedAxis.unitOrthogonal();
+  int moved = -1; // the facet of the end
+  for (std::size_t c = 0; c < facets.Clusters.size(); ++c)
+  {
+    const FlatPiece& piece = facets.Clusters[c].Piece;
+    const double along = piece.Normal.dot(TiltedAxis);
+    const bool isAtPiece = (piece.Centre - foot).dot(across) > 0.6;
+    int region = along > 0.5 ? Top : along < -0.5 ? Bottom : isAtPiece ? Piece : Side;
+    if (region == Top && isAtPiece && moved < 0)
+    {
+      moved = int(c);
+      region = Piece;
+    }
+    division.RegionOfCluster.push_back(region);
+    division.Regions[std::size_t(region)].Clusters.push_back(int(c));
+  }
+  ASSERT_GE(moved, 0);
+  for (GrownRegion& region : division.Regions)
+  {
+    region.NumPoints = int(region.Clusters.size());
+  }
+  const auto before = division.RegionOfCluster;
+  JoinEqual(surface.Value, facets, 4e-3, false, growth, division);
+  for (std::size_t c = 0; c < before.size(); ++c)
+  {
+    const int expected = int(c) == moved ? Top : before[c] == Piece ? Side : before[c];
+    EXPECT_EQ(division.RegionOfCluster[c], expected) << "cluster " << c;
+  }
+  EXPECT_TRUE(division.Regions[Piece].Clusters.empty());
 }
 
 /// One row of facets lies on a sphere, too.
