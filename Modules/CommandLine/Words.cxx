@@ -29,6 +29,13 @@ const CLI::App* FindJob(const std::vector<std::string>& words, const CLI::App& a
   return named.empty() ? nullptr : named.front();
 }
 
+/// The option of a job that a word names; null if it names none.
+const CLI::Option* FindOption(const std::string& word, const CLI::App* job)
+{
+  const bool isName = word.size() > 1 && word.front() == '-' && word != "--";
+  return job && isName ? job->get_option_no_throw(word.substr(0, word.find('='))) : nullptr;
+}
+
 /// The word, or the present spelling of an old one.
 std::string Renew(const std::string& word, const CLI::App& job, std::vector<std::string>& warnings)
 {
@@ -106,12 +113,22 @@ PreparedWords PrepareWords(int argc, const char* const* argv, const CLI::App& ap
   {
     const std::string word = job ? Renew(words[i], *job, prepared.Warnings) : words[i];
     prepared.Words.push_back(word);
-    const bool isName = word.size() > 2 && BeginsWith(word, "--");
-    const CLI::Option* option = job && isName ? job->get_option_no_throw(word) : nullptr;
-    if (option && option->get_items_expected_max() == 0 && i + 1 < words.size() &&
-      IsTruthWord(words[i + 1]))
+    const bool hasValue = word.find('=') != std::string::npos;
+    const CLI::Option* option = hasValue ? nullptr : FindOption(word, job);
+    if (!option || i + 1 == words.size())
+    {
+      continue;
+    }
+    if (option->get_items_expected_max() == 0 && IsTruthWord(words[i + 1]))
     {
       prepared.Words.back() += "=" + words[++i];
+    }
+    else if (option->get_items_expected_min() > 0 && FindOption(words[i + 1], job) &&
+      prepared.Wrong.empty())
+    {
+      prepared.Wrong = "knotwork " + job->get_name() + ": '" + word +
+        "' needs a value, and the option '" + words[i + 1] + "' follows; 'knotwork " +
+        job->get_name() + " --help' lists its options";
     }
   }
   return prepared;

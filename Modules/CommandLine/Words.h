@@ -13,6 +13,9 @@ struct PreparedWords
 {
   std::vector<std::string> Words;
   std::vector<std::string> Warnings; ///< one sentence for every old spelling
+  /// One line, where an option stands in the place of another one's value: a file of that name can
+  /// be given as `--report=--quiet`.
+  std::string Wrong;
 };
 
 /// Truth options are flags of the parser, which take a value only as `--measures=0`: `--measures 0`

@@ -176,6 +176,14 @@ int main(int argc, char* argv[])
     RefuseOctalNumbers(*job);
   }
   const knotwork::PreparedWords prepared = knotwork::PrepareWords(argc, argv, app);
+  if (!prepared.Wrong.empty())
+  {
+    if (knotwork::FindParallelStart().IsFirst)
+    {
+      std::cerr << knotwork::OneLine(prepared.Wrong) << "\n";
+    }
+    return WrongUsage;
+  }
   try
   {
     std::vector<std::string> words = prepared.Words;

@@ -96,6 +96,18 @@ def test_formats_of_help_pages_and_paraview_are_one_list():
         assert set(offered) | own == known, (kind, set(offered) ^ known)  # the others are ParaView's own
 
 
+def test_options_are_no_values_of_others():
+    for arguments, option, following in ((["info", "a.vtu", "--report", "--quiet"], "--report", "--quiet"), (["convert", "a.vtu", "-o", "--force"], "-o", "--force"),
+                                         (["tessellate", "a.vtu", "--chordal-tolerance", "--output=b.vtp"], "--chordal-tolerance", "--output=b.vtp"),
+                                         (["cadmodify", "a.step", "--heal", "--output", "b.step"], "--heal", "--output")):
+        line = wrong(*arguments)
+        assert f"'{option}' needs a value" in line and f"'{following}'" in line, line
+    assert not os.path.exists("--quiet")
+    done = knotwork_testing.run_program("source", "--output", path("c.vtu"), "--report=--quiet", "--quiet")
+    assert done.returncode == 0 and os.path.exists("--quiet"), done
+    os.remove("--quiet")
+
+
 def test_unknown_endings_list_the_known_ones():
     text = knotwork_testing.run_program("--help").stdout
     read = listed(text, "Files that are read")
