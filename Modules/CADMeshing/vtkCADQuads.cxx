@@ -51,10 +51,17 @@ void EncodeMesh(const CADTopology& model, const CADQuads& made, vtkPolyData* out
   vtkCellData* ofCells = output->GetCellData();
   ofCells->AddArray(ArrayOf<vtkIntArray>(
     "CADFaceId", mesh.QuadFace, [&](int face) { return faceOf(face).Ids.front(); }));
-  ofCells->AddArray(ArrayOf<vtkIntArray>(
-    "SolidId", mesh.QuadFace, [&](int face) { return faceOf(face).Bodies.front(); }));
-  ofCells->AddArray(ArrayOf<vtkIntArray>(
-    "SecondSolidId", mesh.QuadFace, [&](int face) { return SecondOf(faceOf(face).Bodies); }));
+  const auto solids = NamedArray<vtkIntArray>("SolidId");
+  const auto others = NamedArray<vtkIntArray>("SecondSolidId");
+  for (std::size_t q = 0; q < mesh.Quads.size(); ++q)
+  {
+    const auto& bodies = faceOf(mesh.QuadFace[q]).Bodies;
+    const bool isSecond = made.BodyOfFace[q] == 1;
+    solids->InsertNextValue(isSecond ? bodies[1] : bodies[0]);
+    others->InsertNextValue(isSecond ? bodies[0] : SecondOf(bodies));
+  }
+  ofCells->AddArray(solids);
+  ofCells->AddArray(others);
   std::vector<std::string> names;
   for (const CADTopologyFace& face : model.Faces)
   {
@@ -158,6 +165,7 @@ Status vtkCADQuads::Compute(vtkInformationVector**, vtkInformationVector* output
   params.Curvature = this->Curvature;
   params.MinDivisions = this->MinimumDivisions;
   params.MaxQuads = this->MaximumQuads;
+  params.SolidsApart = this->SolidsApart;
   params.Progress = this->Progress();
   const auto made = MeshQuads(model.Value, params);
   if (!made)

@@ -10,7 +10,8 @@
  *
  * Output 0 (vtkPolyData): the quadrilaterals, counterclockwise about the normal that leads out of
  * their solid (the first of two), with the cell arrays CADFaceId (FaceId of vtkCADReader, the
- * smaller of two), SolidId (Body of vtkCADReader), SecondSolidId (-1: none), ScaledJacobian and,
+ * smaller of two), SolidId (Body of vtkCADReader), SecondSolidId (at the other side, -1: none),
+ * ScaledJacobian and,
  * where faces are in composites (CADComposite.h), CompositeId (from 0, -1 in none; the composite is
  * meshed as one face, with the FaceId of its first), and the point
  * arrays CADEntityDimension (0 on a vertex, 1 on an edge, 2 on a face) and CADEntityId (number of
@@ -89,6 +90,14 @@ public:
   vtkGetMacro(MinimumDivisions, int);
   ///@}
   ///@{
+  /** Whether every solid has points and quadrilaterals of its own, of the faces that it shares,
+   * too: closed surfaces, as CAD Fit takes them. Else shared faces are meshed once, and three faces
+   * may meet at an edge. Default off. */
+  vtkSetMacro(SolidsApart, bool);
+  vtkGetMacro(SolidsApart, bool);
+  vtkBooleanMacro(SolidsApart, bool);
+  ///@}
+  ///@{
   /** More quadrilaterals are an error. Default 1000000, valid range >= 1. Advanced. */
   vtkSetClampMacro(MaximumQuads, int, 1, VTK_INT_MAX);
   vtkGetMacro(MaximumQuads, int);
@@ -110,5 +119,6 @@ private:
   double Curvature = 30.0;
   int MinimumDivisions = 2;
   int MaximumQuads = 1000000;
+  bool SolidsApart = false;
 };
 #endif

@@ -367,8 +367,8 @@ class Part:
 
     def volume_of(self, file):
         """By OpenCASCADE, with a tolerance: by default (gmsh's, FreeCAD's) it is off by up to a hundredth on splines of several spans."""
-        report, said = self.run("cadmodify", file, "--heal", "1e-7", "--output", self.stem + "_read.step")
-        return report["volume_before"] if report and report["brep_valid"] else math.nan
+        report, _ = self.run("cadmodify", file, "--suggest", "--maximum-cuts", "0")
+        return report["part"]["volume"] if report else math.nan
 
     def way(self, job, ending):
         """Whether there is a mesh, whether the spline on it comes back as it should, its distance, and what is to be said."""

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 namespace knotwork
 {
@@ -33,7 +34,8 @@ private:
   Status CheckMapped() const;
   void FindMapped(const std::vector<RectangleFace>& equal);
   Status MeshFaces(const EdgeNodes& nodes, std::vector<int>& poor);
-  void SeparateBodies(CADMesh& mesh) const;
+  void SeparateBodies(const std::vector<int>& groups, CADQuads& made) const;
+  void RepeatSharedFaces(CADQuads& made) const;
   void Measure(CADQuads& made) const;
   Status Check(const CADQuads& made) const;
 
@@ -53,8 +55,7 @@ Status QuadMesher::CheckMapped() const
       return { ErrorCode::InvalidTopology,
         FaceName(this->Model, face) +
           " is not mapped: its boundary is neither a loop with up to six corners, but for one, nor "
-          "a "
-          "ring; split it (cadmodify) or take Method automatic" };
+          "a ring; split it (cadmodify) or take Method automatic" };
     }
   }
   return {};
@@ -119,12 +120,15 @@ void QuadMesher::Measure(CADQuads& made) const
   const CADMesh& mesh = made.Mesh;
   std::map<std::pair<int, int>, int> sides;
   std::vector<int> valence(mesh.Points.size(), 0);
-  for (const auto& quad : mesh.Quads)
+  std::vector<bool> isOfFirst(mesh.Points.size(), false);
+  for (std::size_t q = 0; q < mesh.Quads.size(); ++q)
   {
+    const auto& quad = mesh.Quads[q];
     for (std::size_t i = 0; i < 4; ++i)
     {
       ++sides[std::minmax(quad[i], quad[(i + 1) % 4])];
       ++valence[At(quad[i])];
+      isOfFirst[At(quad[i])] = isOfFirst[At(quad[i])] || made.BodyOfFace[q] == 0;
     }
   }
   std::vector<bool> isManifold(mesh.Points.size(), true);
@@ -145,7 +149,7 @@ void QuadMesher::Measure(CADQuads& made) const
     if (isManifold[p] && valence[p] > 0 && valence[p] != 4)
     {
       ++made.ExtraordinaryPoints;
-      if (mesh.PointDimension[p] == 2)
+      if (mesh.PointDimension[p] == 2 && isOfFirst[p]) // of each face once
       {
         ++made.Faces[At(mesh.PointEntity[p])].ExtraordinaryPoints;
       }
@@ -154,15 +158,17 @@ void QuadMesher::Measure(CADQuads& made) const
   made.EulerNumber = used - static_cast<int>(sides.size()) + static_cast<int>(mesh.Quads.size());
 }
 
-void QuadMesher::SeparateBodies(CADMesh& mesh) const
+/// @param groups  of the bodies: those of one keep the points that they have in common.
+void QuadMesher::SeparateBodies(const std::vector<int>& groups, CADQuads& made) const
 {
-  const std::vector<int> groups = GroupsOfBodies(this->Model);
+  CADMesh& mesh = made.Mesh;
   std::vector<int> corners;
   std::vector<int> groupOf;
   for (std::size_t q = 0; q < mesh.Quads.size(); ++q)
   {
     corners.insert(corners.end(), mesh.Quads[q].begin(), mesh.Quads[q].end());
-    groupOf.push_back(groups[At(this->Model.Faces[At(mesh.QuadFace[q])].Bodies.front())]);
+    const auto& bodies = this->Model.Faces[At(mesh.QuadFace[q])].Bodies;
+    groupOf.push_back(groups[At(bodies[At(made.BodyOfFace[q])])]);
   }
   for (const int point : SeparatePoints(corners, groupOf, static_cast<int>(mesh.Points.size())))
   {
@@ -173,6 +179,25 @@ void QuadMesher::SeparateBodies(CADMesh& mesh) const
   for (std::size_t i = 0; i < corners.size(); ++i)
   {
     mesh.Quads[i / 4][i % 4] = corners[i];
+  }
+}
+
+/// Quadrilaterals of faces that two bodies share once more, leading out of the second one.
+void QuadMesher::RepeatSharedFaces(CADQuads& made) const
+{
+  CADMesh& mesh = made.Mesh;
+  const std::size_t count = mesh.Quads.size();
+  for (std::size_t q = 0; q < count; ++q)
+  {
+    const auto& bodies = this->Model.Faces[At(mesh.QuadFace[q])].Bodies;
+    if (bodies.size() == 2 && bodies[0] != bodies[1])
+    {
+      const auto [a, b, c, d] = mesh.Quads[q];
+      mesh.Quads.push_back({ a, d, c, b });
+      mesh.QuadFace.push_back(mesh.QuadFace[q]);
+      made.ScaledJacobians.push_back(made.ScaledJacobians[q]);
+      made.BodyOfFace.push_back(1);
+    }
   }
 }
 
@@ -319,12 +344,20 @@ Result<CADQuads> QuadMesher::Run()
       {
         this->Faces.Append(face, made);
       }
-      this->SeparateBodies(made.Mesh);
-      this->Measure(made);
+      made.BodyOfFace.assign(made.Mesh.Quads.size(), 0);
+      this->SeparateBodies(GroupsOfBodies(this->Model), made);
       if (Status checked = this->Check(made); !checked)
       {
         return checked;
       }
+      if (this->Params.SolidsApart)
+      {
+        this->RepeatSharedFaces(made);
+        std::vector<int> bodies(this->Model.Bodies.size());
+        std::iota(bodies.begin(), bodies.end(), 0);
+        this->SeparateBodies(bodies, made);
+      }
+      this->Measure(made);
       return made;
     }
     for (const int face : poor)

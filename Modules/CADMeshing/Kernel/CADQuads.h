@@ -20,6 +20,9 @@ struct CADQuadsParams
   double Curvature = 30.0; ///< degrees that an edge or surface turns along a segment, (0, 90]
   int MinDivisions = 2;    ///< segments of every edge, [1, 100000]
   int MaxQuads = 1000000;
+  /// Every solid has points and quadrilaterals of its own, of the faces that it shares, too: closed
+  /// surfaces. Else shared faces are meshed once, and three faces may meet at an edge.
+  bool SolidsApart = false;
   ProgressCallback Progress;
 };
 
@@ -37,8 +40,10 @@ struct CADQuads
 {
   CADMesh Mesh;
   std::vector<double> ScaledJacobians; ///< of quadrilaterals: smallest sine of their angles
-  std::vector<int> Divisions;          ///< of edges
-  std::vector<CADFaceQuads> Faces;     ///< one a face of the model
+  /// Of quadrilaterals: which of the bodies at their face they lead out of, 0 or 1.
+  std::vector<int> BodyOfFace;
+  std::vector<int> Divisions;      ///< of edges
+  std::vector<CADFaceQuads> Faces; ///< one a face of the model
   int EulerNumber = 0;
   bool Closed = false; ///< no edge of the mesh has one quadrilateral only
   int ExtraordinaryPoints =

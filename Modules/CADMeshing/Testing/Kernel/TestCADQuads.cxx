@@ -26,6 +26,8 @@
 
 #include <Eigen/Geometry>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -289,6 +291,30 @@ TEST(CADQuads, ImprintedSolidsConformAndOthersDoNot)
     EXPECT_EQ(made.EulerNumber, 2 + 2 - 1) << name;
     EXPECT_TRUE(made.Closed);
     EXPECT_EQ(made.Faces.size(), 9u);
+    // two spheres, each with the disc
+    CADQuadsParams params;
+    params.SolidsApart = true;
+    const auto apartSolids = MeshQuads(model, params);
+    ASSERT_TRUE(apartSolids) << apartSolids.Status.Message();
+    EXPECT_EQ(apartSolids->EulerNumber, 2 + 2);
+    EXPECT_TRUE(apartSolids->Closed);
+    const int second =
+      int(std::count(apartSolids->BodyOfFace.begin(), apartSolids->BodyOfFace.end(), 1));
+    EXPECT_GT(second, 0);
+    EXPECT_EQ(apartSolids->Mesh.Quads.size(), made.Mesh.Quads.size() + std::size_t(second));
+    std::map<std::array<int, 2>, int> sides;
+    for (const auto& quad : apartSolids->Mesh.Quads)
+    {
+      for (std::size_t i = 0; i < 4; ++i)
+      {
+        ++sides[{ quad[i], quad[(i + 1) % 4] }];
+      }
+    }
+    for (const auto& [side, count] : sides)
+    {
+      EXPECT_EQ(count, 1);
+      EXPECT_EQ(sides.count({ side[1], side[0] }), 1u);
+    }
   }
   const CADTopology model = TopologyOf(apart);
   EXPECT_EQ(Mesh(model).EulerNumber, 2 + 2);

@@ -3,6 +3,7 @@
 `cadfit` makes of them."""
 import gzip
 import json
+import math
 import os
 
 import knotwork_testing
@@ -46,6 +47,20 @@ def fitted(mesh, part):
     report = run("cadfit", mesh, "--target", part, "--degree", 2, "--output", "fit.vtu")
     run("convert", "fit.vtu", "--output", "fit.step")
     return report, run("cadmodify", "fit.step", "--suggest")["part"]
+
+
+def test_solids_that_share_a_face_are_solids_of_their_own():
+    part = run("cadmodify", knotwork_testing.data(os.path.join("Parts", "cylinder_on_cube.step")), "--imprint", "--output", "shared.step")
+    assert part["solids"] == 2
+    run("quads", "shared.step", "--output", "shared.vtp")
+    done = knotwork_testing.run_program("cadfit", "shared.vtp", "--target", "shared.step", "--output", "no.vtu", folder=FOLDER)
+    assert done.returncode == 1 and "have one edge in common" in done.stderr and "points of their own" in done.stderr, done.stderr
+    quads = run("quads", "shared.step", "--solids-apart", "--output", "apart.vtp")
+    assert quads["closed"] and quads["solids_apart"] and quads["euler_number"] == 4, quads
+    report, solids = fitted("apart.vtp", "shared.step")
+    assert report["verdict"] == "valid" and solids["solids"] == 2, (report, solids)
+    volume = 20 ** 3 + math.pi * 6 ** 2 * 12
+    assert abs(solids["volume"] - volume) < 1e-4 * volume, (solids, volume)
 
 
 def test_the_mesh_is_fitted_to_the_part():

@@ -317,7 +317,7 @@ Status MeshTopology<Dim>::LinkFacets(const CellMesh<Dim>& mesh)
           : Status{ ErrorCode::InvalidTopology,
               "cells " + std::to_string(own) + ", " + std::to_string(other) + " and " +
                 std::to_string(third) + " have one " + (Dim == 2 ? "edge" : "face") +
-                " in common; at most two may" };
+                " in common; at most two may: give bodies that meet there points of their own" };
       }
       const int side = facet % NumSides;
       const int otherSide = otherFacet % NumSides;
