@@ -4,6 +4,7 @@
 #include "HexahedronData.h"
 #include <knotwork/CADMeshing/CADHexes.h>
 #include <knotwork/CADMeshing/ContactWarnings.h>
+#include <knotwork/CADMeshing/HexahedronQuality.h>
 #include <knotwork/CADMeshing/SweepCuts.h>
 #include <knotwork/CADModel/CADOperationText.h>
 #include <knotwork/SplineGrid/TableRow.h>
@@ -151,14 +152,14 @@ Status vtkCADHexahedra::Compute(vtkInformationVector**, vtkInformationVector* ou
   Result<CADHexes> made;
   const auto cut = FindSweepCuts(
     pieces.Value,
-    [&](const CADTopology& model) -> Result<bool>
+    [&](const CADTopology& model) -> Result<double>
     {
       made = MeshHexes(model, params);
       if (!made)
       {
         return made.Status;
       }
-      return made->Quality.Certificate.Verdict == Verdict::Valid;
+      return ShareNotValid(made->Quality.Certificate);
     },
     search);
   if (!cut)

@@ -3,6 +3,8 @@
 
 #include <knotwork/JacobianValidation/CellMeasures.h>
 
+#include <algorithm>
+
 namespace knotwork
 {
 namespace
@@ -76,5 +78,14 @@ Result<HexahedronQuality> MeasureHexahedra(
   quality.LeastScaledJacobian = measures->Total.ScaledMin;
   quality.Volume = measures->Total.Measure;
   return quality;
+}
+
+double ShareNotValid(const JacobianCertificate& certificate)
+{
+  const auto bad = std::count_if(certificate.Cells.begin(), certificate.Cells.end(),
+    [](const CellCertificate& cell) { return cell.Verdict != Verdict::Valid; });
+  return certificate.Cells.empty()
+    ? 0.0
+    : static_cast<double>(bad) / static_cast<double>(certificate.Cells.size());
 }
 }

@@ -22,4 +22,7 @@ Result<std::vector<double>> ScaledJacobians(
 /// @param points  NumPoints x 3. @return failures of ValidateJacobian and MeasureCells.
 Result<HexahedronQuality> MeasureHexahedra(
   const CellMesh<3>& mesh, const PointMatrixView& points, int threads = 0);
+
+/// Share of cells whose verdict is not Valid, in [0, 1]; 0 without cells.
+double ShareNotValid(const JacobianCertificate& certificate);
 }

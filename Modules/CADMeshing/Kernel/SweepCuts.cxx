@@ -4,6 +4,8 @@
 #include "SolidSweeps.h"
 
 #include <algorithm>
+#include <cmath>
+#include <string>
 #include <tuple>
 
 namespace knotwork
@@ -106,12 +108,12 @@ Result<SweepCuts> FindSweepCuts(
   }
   found.Model = std::move(model.Value);
   const auto uncut = meshing(found.Model);
-  if (uncut ? uncut.Value : uncut.Status.Code != ErrorCode::InvalidTopology)
+  if (uncut ? uncut.Value == 0.0 : uncut.Status.Code != ErrorCode::InvalidTopology)
   {
     return uncut ? Result<SweepCuts>(std::move(found)) : Result<SweepCuts>(uncut.Status);
   }
   Status failure = uncut.Status;
-  bool hasMesh = static_cast<bool>(uncut); // of cells that are not all valid
+  double least = uncut ? uncut.Value : HUGE_VAL; // share of cells that are not valid
   std::vector<CutState> states{ { pieces, {} } };
   CutSearch search(params);
   for (int cut = 0; cut < params.MaxCuts && !states.empty(); ++cut)
@@ -132,7 +134,7 @@ Result<SweepCuts> FindSweepCuts(
       next.Model = std::move(model.Value);
       next.Cuts = states[i].Cuts;
       const auto meshed = meshing(next.Model);
-      if (meshed && meshed.Value)
+      if (meshed && meshed.Value == 0.0)
       {
         return next;
       }
@@ -144,16 +146,23 @@ Result<SweepCuts> FindSweepCuts(
       {
         return meshed.Status;
       }
-      if (meshed && !hasMesh)
+      if (meshed && meshed.Value < least)
       {
         found = std::move(next);
-        hasMesh = true;
+        least = meshed.Value;
       }
     }
   }
-  if (!hasMesh)
+  if (least == HUGE_VAL)
   {
     return failure;
+  }
+  if (least > MostInvalidCells)
+  {
+    return { ErrorCode::InvalidTopology,
+      "of the hexahedra " + std::to_string(std::lround(100.0 * least)) +
+        " in a hundred fold over, with the best cuts that were found; lower EdgeLength or "
+        "Curvature, or cut the solid (cadmodify, which has --suggest)" };
   }
   const auto again = meshing(found.Model);
   return again ? Result<SweepCuts>(std::move(found)) : Result<SweepCuts>(again.Status);

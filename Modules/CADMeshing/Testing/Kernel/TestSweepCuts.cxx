@@ -2,6 +2,7 @@
 // Parts that cannot be swept as they are, and how many cuts are known to be enough.
 #include "PartFiles.h"
 #include <knotwork/CADMeshing/CADHexes.h>
+#include <knotwork/CADMeshing/HexahedronQuality.h>
 #include <knotwork/CADMeshing/SweepCuts.h>
 
 #include <BRepAlgoAPI_Fuse.hxx>
@@ -65,12 +66,12 @@ TEST(SweepCuts, TheFewestCutsAreFound_ExactOracle)
   {
     SCOPED_TRACE(part.Name);
     CADHexes made;
-    const PieceMeshing meshing = [&](const CADTopology& model) -> Result<bool>
+    const PieceMeshing meshing = [&](const CADTopology& model) -> Result<double>
     {
       auto hexes = MeshHexes(model);
       made = hexes ? std::move(hexes.Value) : CADHexes();
-      return hexes ? Result<bool>(made.Quality.Certificate.Verdict == Verdict::Valid)
-                   : Result<bool>(hexes.Status);
+      return hexes ? Result<double>(ShareNotValid(made.Quality.Certificate))
+                   : Result<double>(hexes.Status);
     };
     SweepCutsParams params;
     params.MaxCuts = 3;
@@ -104,30 +105,37 @@ TEST(SweepCuts, CutsThatCannotBeMeshedAreNotTaken)
   EXPECT_EQ(refused.Status.Detail, "number 1"); // that of the part as it is
   EXPECT_GT(tried, 2);
   const auto large = FindSweepCuts(pieces,
-    [&](const CADTopology& model) -> Result<bool>
+    [&](const CADTopology& model) -> Result<double>
     {
       return model.Bodies.size() == 1 ? Status(ErrorCode::InvalidTopology, "one")
                                       : Status(ErrorCode::TooLarge, "more");
     });
   EXPECT_EQ(large.Status.Code, ErrorCode::TooLarge);
-  // cells that are not valid are better than none: those of the fewest cuts, meshed again at the
-  // end
+  // some cells that are not valid are better than none: where there are the fewest, meshed again at
+  // the end
   std::vector<std::size_t> bodies;
-  const auto folded = FindSweepCuts(pieces,
-    [&](const CADTopology& model) -> Result<bool>
-    {
-      bodies.push_back(model.Bodies.size());
-      return model.Bodies.size() == 1 ? Result<bool>(Status{ ErrorCode::InvalidTopology, "one" })
-                                      : Result<bool>(false);
-    });
+  double share = 0.05;
+  const PieceMeshing folds = [&](const CADTopology& model) -> Result<double>
+  {
+    bodies.push_back(model.Bodies.size());
+    return model.Bodies.size() == 1 ? Result<double>(Status{ ErrorCode::InvalidTopology, "one" })
+      : model.Bodies.size() == 2    ? Result<double>(2.0 * share)
+                                    : Result<double>(share);
+  };
+  const auto folded = FindSweepCuts(pieces, folds);
   ASSERT_TRUE(folded);
-  EXPECT_EQ(folded->Cuts.size(), 1u);
+  EXPECT_GT(folded->Model.Bodies.size(), 2u);
   EXPECT_EQ(folded->Model.Bodies.size(), bodies.back());
+  share = 2.0 * MostInvalidCells;
+  const auto useless = FindSweepCuts(pieces, folds);
+  EXPECT_EQ(useless.Status.Code, ErrorCode::InvalidTopology);
+  EXPECT_NE(useless.Status.Detail.find("20 in a hundred fold over"), std::string::npos)
+    << useless.Status.Message();
   SweepCutsParams stopped;
   stopped.Progress = [](double) { return false; };
   EXPECT_EQ(
     FindSweepCuts(
-      pieces, [](const CADTopology& model) -> Result<bool> { return MeshHexes(model).Status; },
+      pieces, [](const CADTopology& model) -> Result<double> { return MeshHexes(model).Status; },
       stopped)
       .Status.Code,
     ErrorCode::Aborted);
