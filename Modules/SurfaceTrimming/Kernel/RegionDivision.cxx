@@ -21,45 +21,45 @@ constexpr std::size_t FirstRegions = 200;
 constexpr double LargestShareLeft = 0.25;
 
 /// What says where slivers belong: flat ones, all points of which are on the rim of a fillet beside
-/// their face, lie on the fillet, too.
+/// their face, lie on the fillet, too. Finds what it needs when it is asked.
 class SliverEvidence
 {
 public:
   SliverEvidence(const SurfaceGrowth& growth, const FacetClusters& facets, const Division& division)
     : Growth(growth), Facets(facets), Regions(division.Regions),
-      RegionOfCluster(division.RegionOfCluster)
+      RegionOfCluster(division.RegionOfCluster), Near(division.Regions.size(), -1.0)
   {
-    for (std::size_t c = 0; c < facets.Clusters.size(); ++c)
-    {
-      for (const int point : facets.Clusters[c].Points)
-      {
-        ++this->Count[{ point, this->RegionOfCluster[c] }];
-      }
-    }
-    for (const GrownRegion& region : division.Regions)
-    {
-      const bool isNone = region.Clusters.empty() || region.Surface.Type == SurfaceType::FreeForm;
-      this->Near.push_back(isNone ? 0.0 : MostDeviations * growth.Residuals(region)[1]);
-    }
   }
 
   /// Whether other clusters of a region have all points of a cluster: how far these are from its
   /// surface says nothing about the cluster then.
-  bool HasAllOf(int cluster, int region) const
+  bool HasAllOf(int cluster, int region)
   {
-    const int own = this->RegionOfCluster[static_cast<std::size_t>(cluster)] == region;
-    const auto& points = this->ClusterOf(cluster).Points;
+    if (this->PointsInRegions.empty())
+    {
+      for (std::size_t c = 0; c < this->Facets.Clusters.size(); ++c)
+      {
+        for (const int point : this->Facets.Clusters[c].Points)
+        {
+          this->PointsInRegions.emplace_back(point, this->RegionOfCluster[c]);
+        }
+      }
+      std::sort(this->PointsInRegions.begin(), this->PointsInRegions.end());
+    }
+    const bool isOwn = this->RegionOfCluster[static_cast<std::size_t>(cluster)] == region;
+    const auto& points = this->Facets.Clusters[static_cast<std::size_t>(cluster)].Points;
     return std::all_of(points.begin(), points.end(),
       [&](int point)
       {
-        const auto found = this->Count.find({ point, region });
-        return found != this->Count.end() && found->second > own;
+        const auto [begin, end] = std::equal_range(
+          this->PointsInRegions.begin(), this->PointsInRegions.end(), std::pair(point, region));
+        return end - begin > (isOwn ? 1 : 0);
       });
   }
 
   /// Whether a sliver is one of a flat region: its longest side is there, and its points are as far
   /// from the plane as the region's.
-  bool IsOfPlane(int cluster, int number) const
+  bool IsOfPlane(int cluster, int number)
   {
     const GrownRegion& region = this->Regions[static_cast<std::size_t>(number)];
     if (region.Surface.Type != SurfaceType::Plane || !this->Growth.IsSliver(cluster))
@@ -70,53 +70,55 @@ public:
     const auto longest = std::max_element(sides.begin(), sides.end(),
       [&](const ClusterSide& a, const ClusterSide& b)
       { return this->Growth.LengthOf(a) < this->Growth.LengthOf(b); });
-    return longest != sides.end() &&
-      this->RegionOfCluster[static_cast<std::size_t>(longest->Cluster)] == number &&
-      this->Growth.IsWithin(cluster, region.Surface, this->Near[static_cast<std::size_t>(number)]);
+    if (longest == sides.end() ||
+      this->RegionOfCluster[static_cast<std::size_t>(longest->Cluster)] != number)
+    {
+      return false;
+    }
+    double& near = this->Near[static_cast<std::size_t>(number)];
+    near = near < 0.0 ? MostDeviations * this->Growth.Residuals(region)[1] : near;
+    return this->Growth.IsWithin(cluster, region.Surface, near);
   }
 
 private:
   static constexpr double MostDeviations = 3.0;
 
-  const FacetCluster& ClusterOf(int cluster) const
-  {
-    return this->Facets.Clusters[static_cast<std::size_t>(cluster)];
-  }
-
   const SurfaceGrowth& Growth;
   const FacetClusters& Facets;
   const std::vector<GrownRegion>& Regions;
-  const std::vector<int> RegionOfCluster;   ///< as they were
-  std::map<std::pair<int, int>, int> Count; ///< clusters of a point and a region
-  std::vector<double> Near;                 ///< of regions
+  const std::vector<int> RegionOfCluster;           ///< as they were
+  std::vector<std::pair<int, int>> PointsInRegions; ///< of every cluster's points, ascending
+  std::vector<double> Near;                         ///< of regions; -1: not known yet
 };
 
 /// The region that a cluster goes over to, or its own.
 int BetterRegion(int cluster, const SurfaceGrowth& growth, const FacetClusters& facets,
-  const SliverEvidence& slivers, const Division& division)
+  SliverEvidence& slivers, const Division& division)
 {
   const auto c = static_cast<std::size_t>(cluster);
   const int from = division.RegionOfCluster[c];
   const auto& own = division.Regions[static_cast<std::size_t>(from)];
-  const bool isSpare = slivers.HasAllOf(cluster, from);
-  const bool isOwn = slivers.IsOfPlane(cluster, from);
   double least = BetterShare * growth.Cost(cluster, own.Surface);
   int to = from;
   for (const ClusterSide& side : facets.Sides[c])
   {
     const int other = division.RegionOfCluster[static_cast<std::size_t>(side.Cluster)];
     const auto& region = division.Regions[static_cast<std::size_t>(other)];
-    if (other == to || !(side.Angle < LargestTurn) ||
-      !growth.Fits(cluster, region.Surface, region.Reversed))
+    if (other == to || !(side.Angle < LargestTurn))
     {
       continue;
     }
-    if (isSpare && slivers.IsOfPlane(cluster, other))
+    const bool belongs = slivers.IsOfPlane(cluster, other) && slivers.HasAllOf(cluster, from);
+    const double cost = growth.Cost(cluster, region.Surface);
+    if ((!belongs && !(cost < least)) || !growth.Fits(cluster, region.Surface, region.Reversed))
+    {
+      continue;
+    }
+    if (belongs)
     {
       return other;
     }
-    const double cost = growth.Cost(cluster, region.Surface);
-    if (cost < least && !(isOwn && slivers.HasAllOf(cluster, other)))
+    if (!slivers.IsOfPlane(cluster, from) || !slivers.HasAllOf(cluster, other))
     {
       least = cost;
       to = other;
@@ -130,7 +132,7 @@ int BetterRegion(int cluster, const SurfaceGrowth& growth, const FacetClusters& 
 /// @return whether any did; the surfaces are fitted again then.
 bool MoveClusters(const SurfaceGrowth& growth, const FacetClusters& facets, Division& division)
 {
-  const SliverEvidence slivers(growth, facets, division);
+  SliverEvidence slivers(growth, facets, division);
   std::vector<char> changed(division.Regions.size(), 0);
   bool any = false;
   for (std::size_t c = 0; c < facets.Clusters.size(); ++c)
