@@ -3,13 +3,24 @@
 
 namespace knotwork
 {
+Status LateMesher(const MesherProgram& program, int seconds)
+{
+  return { ErrorCode::NotConverged,
+    std::string(program.Name) + " did not end within " + std::to_string(seconds) +
+      " s; raise TimeLimit, or ask for less quality or fewer points" };
+}
+
 Result<std::vector<std::string>> RunMesher(const MesherProgram& program,
   const std::vector<std::string>& words, const std::vector<std::string>& input,
-  const WorkerLimits& limits, const std::function<bool()>& goOn)
+  const WorkerLimits& limits, const std::function<bool()>& goOn, WorkerEnd* end)
 {
   const std::string name = program.Name;
   const std::string remedy = std::string("; ") + program.Remedy;
   WorkerAnswer answer = RunWorker(program.File, words, input, limits, goOn);
+  if (end)
+  {
+    *end = answer.End;
+  }
   switch (answer.End)
   {
     case WorkerEnd::Done:
@@ -29,9 +40,7 @@ Result<std::vector<std::string>> RunMesher(const MesherProgram& program,
       return { ErrorCode::LibraryError,
         "no process could be started for " + name + "; end other programs" };
     case WorkerEnd::Late:
-      return { ErrorCode::NotConverged,
-        name + " did not end within " + std::to_string(limits.Seconds) +
-          " s; raise TimeLimit, or ask for less quality or fewer points" };
+      return LateMesher(program, limits.Seconds);
     case WorkerEnd::OutOfMemory:
       return { ErrorCode::TooLarge,
         name + " asked for more than " + std::to_string(limits.Memory >> 20U) +

@@ -15,9 +15,13 @@ struct MesherProgram
 
 /// What a mesher hands over.
 /// @param goOn  false ends it.
+/// @param end  result: how the process ended; null: not asked for.
 /// @return InvalidTopology, EmptyInput, LibraryError with the mesher's reason, or that it crashed;
 /// NotConverged after the time; TooLarge where memory was not enough; Aborted.
 Result<std::vector<std::string>> RunMesher(const MesherProgram& program,
   const std::vector<std::string>& words, const std::vector<std::string>& input,
-  const WorkerLimits& limits, const std::function<bool()>& goOn);
+  const WorkerLimits& limits, const std::function<bool()>& goOn, WorkerEnd* end = nullptr);
+
+/// NotConverged: it did not end within the seconds.
+Status LateMesher(const MesherProgram& program, int seconds);
 }

@@ -8,7 +8,9 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <random>
 
 namespace knotwork
 {
@@ -40,7 +42,39 @@ std::vector<std::string> SwitchesOf(const TetrahedraParams& params)
     "r" + common + "a" + most };
 }
 
-std::vector<std::string> Encode(const TriangleMesh& surface, const TetrahedraParams& params)
+/// Points that lie on one circle, sphere or plane to the last bit are more than TetGen bears at
+/// times: it crashes, does not end, or finds facets that intersect where none do. Then it gets
+/// points that are moved by this share of the diagonal at most, and what it makes gets those of the
+/// surface.
+constexpr double LargestShift = 1e-11;
+constexpr int MostShifts = 3;
+
+PointMatrix Shifted(const PointMatrix& points, int attempt)
+{
+  std::mt19937 random(static_cast<unsigned>(attempt));
+  const double size = (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
+  PointMatrix shifted = points;
+  for (Eigen::Index i = 0; i < points.rows(); ++i)
+  {
+    for (Eigen::Index d = 0; d < 3; ++d)
+    {
+      const double share = static_cast<double>(random()) / 2147483648.0 - 1.0;
+      shifted(i, d) += LargestShift * size * share;
+    }
+  }
+  return shifted;
+}
+
+/// Whether other points may help.
+bool IsOfTetGen(WorkerEnd end, const Status& status)
+{
+  return end == WorkerEnd::Crashed || end == WorkerEnd::Late ||
+    (end == WorkerEnd::Done &&
+      (status.Code == ErrorCode::InvalidTopology || status.Code == ErrorCode::LibraryError));
+}
+
+std::vector<std::string> Encode(
+  const PointMatrix& surfacePoints, const TriangleMesh& surface, const TetrahedraParams& params)
 {
   const SizeField& sizes = params.Sizes;
   std::vector<double> regions;
@@ -54,7 +88,7 @@ std::vector<std::string> Encode(const TriangleMesh& surface, const TetrahedraPar
   std::vector<std::string> parts(static_cast<std::size_t>(TetGenInput::Count));
   const auto part = [&](TetGenInput which) -> std::string&
   { return parts[static_cast<std::size_t>(which)]; };
-  part(TetGenInput::Points) = points(surface.Points);
+  part(TetGenInput::Points) = points(surfacePoints);
   part(TetGenInput::Triangles) = PackGroups(surface.Triangles);
   part(TetGenInput::Regions) = PackNumbers(regions.data(), regions.size());
   part(TetGenInput::SizePoints) = points(sizes.Points);
@@ -101,7 +135,34 @@ Result<Tetrahedra> Decode(const std::vector<std::string>& parts, double volume)
 Result<Tetrahedra> RunTetGen(const TriangleMesh& surface, const TetrahedraParams& params,
   const WorkerLimits& limits, const std::function<bool()>& goOn)
 {
-  const auto parts = RunMesher(Program, SwitchesOf(params), Encode(surface, params), limits, goOn);
-  return parts ? Decode(parts.Value, params.MaxVolume) : Result<Tetrahedra>(parts.Status);
+  using Clock = std::chrono::steady_clock;
+  const auto begin = Clock::now();
+  WorkerLimits own = limits;
+  own.Seconds = own.CpuSeconds = std::max(1, limits.Seconds / 2);
+  WorkerEnd end = WorkerEnd::Done;
+  auto parts = RunMesher(
+    Program, SwitchesOf(params), Encode(surface.Points, surface, params), own, goOn, &end);
+  int shifts = 0;
+  for (; !parts && IsOfTetGen(end, parts.Status) && shifts < MostShifts; ++shifts)
+  {
+    const std::chrono::duration<double> gone = Clock::now() - begin;
+    own.Seconds = own.CpuSeconds = limits.Seconds - static_cast<int>(gone.count());
+    if (own.Seconds < 1)
+    {
+      break;
+    }
+    parts = RunMesher(Program, SwitchesOf(params),
+      Encode(Shifted(surface.Points, shifts + 1), surface, params), own, goOn, &end);
+  }
+  if (!parts)
+  {
+    return end == WorkerEnd::Late ? LateMesher(Program, limits.Seconds) : parts.Status;
+  }
+  auto found = Decode(parts.Value, params.MaxVolume);
+  if (found && shifts > 0 && found->Points.rows() >= surface.Points.rows())
+  {
+    found->Points.topRows(surface.Points.rows()) = surface.Points;
+  }
+  return found;
 }
 }

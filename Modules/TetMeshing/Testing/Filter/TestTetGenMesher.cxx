@@ -716,6 +716,35 @@ TEST(vtkTetGenMesher, LimitsEndTheProcessAndNothingElse)
   EXPECT_NE(errors[0].find("TimeLimit"), std::string::npos) << errors[0];
 }
 
+/// A program that crashes, or does not end, the first time is started again; the points are those
+/// of the surface.
+TEST(vtkTetGenMesher, ACrashOrAHangIsTriedAgainWithOtherPoints)
+{
+  const char* workers = std::getenv("KNOTWORK_WORKERS");
+  const std::string before = workers ? workers : "";
+  const std::string real = PathOfWorkerScript("knotwork-tetgen");
+  ASSERT_FALSE(real.empty());
+  for (const char* fault : { "kill -SEGV $$", "sleep 60" })
+  {
+    SCOPED_TRACE(fault);
+    const TemporaryFolder folder;
+    const std::string program = folder.Path() + "/knotwork-tetgen";
+    std::ofstream(program) << "#!/bin/sh\nif [ -e '" << folder.Path() << "/again' ]; then exec '"
+                           << real << "' \"$@\"; fi\ntouch '" << folder.Path() << "/again'\n"
+                           << fault << "\n";
+    std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+    setenv("KNOTWORK_WORKERS", folder.Path().c_str(), 1);
+    vtkNew<vtkTetGenMesher> filter;
+    filter->SetInputDataObject(Box(1.0));
+    filter->SetTimeLimit(6);
+    filter->Update();
+    EXPECT_EQ(filter->GetErrorCode(), 0u);
+    EXPECT_EQ(Number(filter, "Volume"), 1.0);
+    EXPECT_TRUE(std::filesystem::exists(folder.Path() + "/again"));
+  }
+  before.empty() ? unsetenv("KNOTWORK_WORKERS") : setenv("KNOTWORK_WORKERS", before.c_str(), 1);
+}
+
 TEST(vtkTetGenMesher, AProgramThatCrashesOrIsNotThereIsAnError)
 {
   const TemporaryFolder folder;
