@@ -19,14 +19,17 @@ namespace
 constexpr MesherProgram Program = { "knotwork-tetgen", "TetGen", "the surface",
   "repair the surface, or give it better triangles or other bounds of quality" };
 
+bool HasSizes(const TetrahedraParams& params)
+{
+  return params.MaxVolume > 0.0 || !params.RegionSizes.empty() || !params.Sizes.Cells.empty();
+}
+
 /// For the mesh, and for refining it by volumes of its tetrahedra.
 std::vector<std::string> SwitchesOf(const TetrahedraParams& params)
 {
   std::string common = "zQ"; // numbers from 0 on; quiet
   common += params.KeepBoundary ? "Y" : "";
-  const bool areSizes = !params.RegionSizes.empty() || !params.Sizes.Cells.empty();
-  if (params.RadiusEdgeRatio > 0.0 || params.MinDihedralAngle > 0.0 || params.MaxVolume > 0.0 ||
-    areSizes)
+  if (params.RadiusEdgeRatio > 0.0 || params.MinDihedralAngle > 0.0 || HasSizes(params))
   {
     // a ratio that is no bound, for TetGen has one of its own where none is given
     common += "q" + Digits(params.RadiusEdgeRatio > 0.0 ? params.RadiusEdgeRatio : 1e3, 10) + "/" +
@@ -63,6 +66,14 @@ PointMatrix Shifted(const PointMatrix& points, int attempt)
     }
   }
   return shifted;
+}
+
+/// Of the time limit for the points as they are: half, or, where no sizes ask for more tetrahedra
+/// than the surface does, ten times what these take.
+int SecondsOfFirst(const TriangleMesh& surface, const TetrahedraParams& params, int limit)
+{
+  const int usual = 10 + static_cast<int>(surface.Triangles.size() / 500);
+  return std::max(1, HasSizes(params) ? limit / 2 : std::min(limit / 2, usual));
 }
 
 /// Whether other points may help.
@@ -138,7 +149,7 @@ Result<Tetrahedra> RunTetGen(const TriangleMesh& surface, const TetrahedraParams
   using Clock = std::chrono::steady_clock;
   const auto begin = Clock::now();
   WorkerLimits own = limits;
-  own.Seconds = own.CpuSeconds = std::max(1, limits.Seconds / 2);
+  own.Seconds = own.CpuSeconds = SecondsOfFirst(surface, params, limits.Seconds);
   WorkerEnd end = WorkerEnd::Done;
   auto parts = RunMesher(
     Program, SwitchesOf(params), Encode(surface.Points, surface, params), own, goOn, &end);
