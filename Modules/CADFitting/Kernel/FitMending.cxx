@@ -260,11 +260,12 @@ private:
     const std::vector<Eigen::Index> moved = RowsThatDiffer(now, fitted);
     Status status;
     bool isNearer = !moved.empty() && this->Mesh.IsFitted && this->Mesh.HasSurfaces;
+    auto last = isNearer ? this->DistanceNow() : Result<double>(0.0);
+    status = last.Status;
     for (int pass = 0; status && isNearer && pass < MostApproaches; ++pass)
     {
       const auto fit = this->Fitted.ProjectedAgain(this->Mesh, this->Params);
-      const auto last = fit ? this->DistanceNow() : Result<double>(fit.Status);
-      status = last.Status;
+      status = fit.Status;
       isNearer = false;
       for (double share = 1.0; status && !isNearer && share > LeastApproach; share *= 0.5)
       {
@@ -273,11 +274,15 @@ private:
         {
           now.row(i) += share * (fit->Value.ControlPoints.row(i) - before.row(i));
         }
-        const auto distance = this->DistanceNow();
         ElementVerdicts verdicts;
-        status = distance ? this->Fitted.Certify(this->Params, verdicts) : distance.Status;
-        isNearer = status && verdicts.Bad.size() <= this->Fitted.Verdicts.Bad.size() &&
-          distance.Value < last.Value;
+        status = this->Fitted.Certify(this->Params, verdicts);
+        if (status && verdicts.Bad.size() <= this->Fitted.Verdicts.Bad.size())
+        {
+          const auto distance = this->DistanceNow(); // takes longer than the certificates
+          status = distance.Status;
+          isNearer = status && distance.Value < last.Value;
+          last = isNearer ? distance : last;
+        }
         if (isNearer)
         {
           this->Fitted.Verdicts = std::move(verdicts);
