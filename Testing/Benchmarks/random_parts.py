@@ -329,11 +329,17 @@ def make(kind, seed, file):
     kind(gmsh.model.occ, random.Random(seed))
     occ = gmsh.model.occ
     occ.synchronize()
-    solids = occ.getEntities(3)
     occ.remove([entity for dim in (2, 1, 0) for entity in occ.getEntities(dim)])  # what belongs to no solid
     occ.synchronize()
-    gmsh.write(file)
-    return len(solids)
+    sys.stdout.flush()
+    kept, silent = os.dup(1), os.open(os.devnull, os.O_WRONLY)
+    os.dup2(silent, 1)  # OpenCASCADE says there that it writes
+    try:
+        gmsh.write(file)
+    finally:
+        os.dup2(kept, 1)
+        os.close(kept)
+        os.close(silent)
 
 
 class Part:
